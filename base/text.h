@@ -1,0 +1,11 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace foveray {
+
+/// The candidate with the smallest edit distance to `word`, for "did you mean"; empty without candidates.
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace foveray

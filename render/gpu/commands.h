@@ -1,0 +1,106 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/gpu/barriers.h"
+#include "render/gpu/device.h"
+#include "render/gpu/memory.h"
+#include "render/gpu/timers.h"
+
+namespace foveray::gpu {
+
+/// One frame's command buffer in recording, with what a stage needs to record itself.
+class Commands {
+  public:
+    Commands(const Device& device, const vk::raii::CommandBuffer& cmd, GpuTimers* timers)
+        : device_(device), cmd_(cmd), timers_(timers) {}
+
+    const Device& device() const { return device_; }
+    const vk::raii::CommandBuffer& vk() const { return cmd_; }
+    const vk::raii::CommandBuffer* operator->() const { return &cmd_; }
+    void barrier(Access from, Access to) const { gpu::barrier(cmd_, from, to); }
+
+    /// A stage from here to the end of the returned scope: one name for its debug label, its timer and its
+    /// column in the metrics.
+    class Scope {
+      public:
+        Scope(const Commands& commands, const char* name);
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+      private:
+        const Commands& commands_;
+        bool labelled_;
+    };
+    [[nodiscard]] Scope stage(const char* name) const { return Scope(*this, name); }
+
+  private:
+    const Device& device_;
+    const vk::raii::CommandBuffer& cmd_;
+    GpuTimers* timers_;  // may be null
+};
+
+/// Command buffers of the frames in flight. Resources that a frame writes from the CPU exist once a slot.
+class FrameRing {
+  public:
+    FrameRing(const Device& device, std::uint32_t frames_in_flight);
+    ~FrameRing();
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(slots_.size()); }
+    /// Waits until the GPU is done with the slot's earlier frame, then starts recording. `slot()` is valid
+    /// until submit().
+    Commands begin();
+    std::uint32_t slot() const { return current_; }
+    void submit();
+    /// Waits for everything submitted.
+    void wait();
+    /// Stage times of the newest frame that the GPU has finished in this slot.
+    const std::vector<StageTime>& stage_times() const { return stage_times_; }
+
+  private:
+    struct Slot {
+        vk::raii::CommandPool pool = nullptr;
+        vk::raii::CommandBuffer cmd = nullptr;
+        vk::raii::Fence fence = nullptr;
+        GpuTimers timers;
+        bool in_flight = false;
+    };
+    void retire(Slot& slot);
+
+    const Device& device_;
+    std::vector<Slot> slots_;
+    std::uint32_t current_ = 0;
+    std::uint64_t frame_ = 0;
+    std::vector<StageTime> stage_times_;
+};
+
+/// Records, submits and waits: for set-up work outside the frame loop.
+void submit_and_wait(const Device& device, const std::function<void(const Commands&)>& record);
+
+/// Copies CPU data into device-local buffers and images through staging memory, in few submissions.
+class Uploader {
+  public:
+    explicit Uploader(const Device& device) : device_(device) {}
+    ~Uploader() { flush(); }
+
+    Buffer buffer(const std::string& name, std::span<const std::byte> data, vk::BufferUsageFlags extra = {});
+    /// Fills level 0 with tightly packed texels, makes the other levels by halving (linear blit), and leaves
+    /// the image ready to be sampled by ray tracing and compute shaders.
+    Image image(const std::string& name, const ImageInfo& info, std::span<const std::byte> texels);
+    /// Everything asked for so far is on the GPU afterwards.
+    void flush();
+
+  private:
+    void flush_if_large();
+
+    const Device& device_;
+    std::vector<Buffer> staging_;
+    vk::DeviceSize staged_ = 0;
+    std::vector<std::function<void(const Commands&)>> work_;
+};
+
+}  // namespace foveray::gpu

@@ -1,0 +1,33 @@
+// Light a sample: design.md, "LightLayers".
+#ifndef FOVERAY_SHARED_LIGHT_LAYERS_H
+#define FOVERAY_SHARED_LIGHT_LAYERS_H
+
+#include "shaders/shared/portable.h"
+
+FOVERAY_SHARED_BEGIN
+
+struct LightSample {
+    vec3 radiance;  // of virtual things, premultiplied by coverage
+    float coverage;
+    vec3 transmittance;  // what is left of the real surface's light: virtual shadows
+    float distance;      // along the ray to the nearest surface, metres; < 0: none
+    vec3 added;          // light that virtual things add to the real surface
+    float valid;         // 0: culled
+};
+
+// Rays traced, by kind, spread over slots to avoid contention; the CPU sums the slots.
+FOVERAY_CONST uint RAY_COUNTER_SLOTS = 64u;
+FOVERAY_CONST uint COUNT_PRIMARY = 0u;
+FOVERAY_CONST uint COUNT_SHADOW = 1u;
+FOVERAY_CONST uint COUNT_REFLECTION = 2u;
+FOVERAY_CONST uint COUNT_TRANSPARENT = 3u;
+FOVERAY_CONST uint RAY_COUNTER_KINDS = 4u;
+
+FOVERAY_SHARED_END
+
+#ifndef __cplusplus
+FOVERAY_ARRAY(LightSampleArray, LightSample);
+FOVERAY_ARRAY(CounterArray, uint);  // [slot * RAY_COUNTER_KINDS + kind]
+#endif
+
+#endif

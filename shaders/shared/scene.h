@@ -1,0 +1,128 @@
+// The scene as shaders see it. World space, metres, linear Rec. 709.
+#ifndef FOVERAY_SHARED_SCENE_H
+#define FOVERAY_SHARED_SCENE_H
+
+#include "shaders/shared/portable.h"
+
+FOVERAY_SHARED_BEGIN
+
+FOVERAY_CONST uint NO_TEXTURE = 0xFFFFFFFFu;
+
+// A texture with its place on the surface: uv' = offset + uv.x * u_axis + uv.y * v_axis (KHR_texture_transform).
+struct TextureUse {
+    uint texture;  // index into the texture table, or NO_TEXTURE
+    uint uv_set;   // 0 or 1
+    vec2 u_axis;
+    vec2 v_axis;
+    vec2 offset;
+};
+
+FOVERAY_CONST uint MATERIAL_ALPHA_MASK = 1u;
+FOVERAY_CONST uint MATERIAL_ALPHA_BLEND = 2u;
+FOVERAY_CONST uint MATERIAL_DOUBLE_SIDED = 4u;
+FOVERAY_CONST uint MATERIAL_UNLIT = 8u;
+
+// glTF 2.0 metallic-roughness.
+struct Material {
+    vec4 base_color;
+    vec3 emissive;
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float occlusion_strength;
+    float alpha_cutoff;
+    uint flags;
+    TextureUse base_color_texture;
+    TextureUse metallic_roughness_texture;
+    TextureUse normal_texture;
+    TextureUse occlusion_texture;
+    TextureUse emissive_texture;
+};
+
+// Positions lie apart (tightly packed vec3), because acceleration structures read them.
+struct VertexAttributes {
+    vec3 normal;
+    vec4 tangent;  // w: sign of the bitangent
+    vec2 uv0;
+    vec2 uv1;
+    uvec2 color;  // linear RGBA as four halves (packHalf2x16)
+};
+
+// Shader record of a triangle geometry.
+struct TriangleRecord {
+    uint64_t positions;           // vec3[]
+    uint64_t previous_positions;  // vec3[] of the frame before; the same buffer unless the mesh deforms
+    uint64_t indices;             // uint[3 * triangle]
+    uint64_t attributes;          // VertexAttributes[]
+    uint64_t materials;           // Material[]
+    uint64_t instances;           // InstanceData[]
+    uint material;
+    uint pad;
+};
+
+// Shader record of a real surface: an invisible catcher.
+struct CatcherRecord {
+    uint64_t positions;  // vec3[]
+    uint64_t indices;    // uint[]
+    uint64_t instances;  // InstanceData[]
+    vec3 albedo;
+    float roughness;
+    float reflectance;  // mirror reflection at normal incidence; 0: a matte surface
+    uint surface;       // id given by the scene
+};
+
+// By gl_InstanceCustomIndexEXT.
+struct InstanceData {
+    mat4x3 previous_world_from_object;
+    uint node;  // id given by the scene
+};
+
+FOVERAY_CONST uint LIGHT_POINT = 0u;
+FOVERAY_CONST uint LIGHT_SPOT = 1u;
+FOVERAY_CONST uint LIGHT_DIRECTIONAL = 2u;
+FOVERAY_CONST uint LIGHT_AREA = 3u;  // a rectangle that shines to the side of its normal, cross(half_u, half_v)
+
+struct Light {
+    vec3 position;  // world; centre of an area light
+    uint type;
+    vec3 direction;  // in which it shines, unit length
+    float range;     // 0: unlimited (KHR_lights_punctual)
+    vec3 intensity;  // W/sr (point, spot), W/m² (directional), radiance W/(m² sr) (area)
+    float cos_inner;
+    vec3 half_u;
+    float cos_outer;
+    vec3 half_v;
+    uint pad;
+};
+
+// Light from everywhere that nothing else is. The picture is equirectangular: u = 0.5 + atan2(x, -z) / 2π,
+// v = acos(y) / π, levels are blurred for roughness 0 … 1.
+struct Environment {
+    mat3 environment_from_world;
+    vec3 constant;         // radiance where there is no picture
+    uint texture;          // or NO_TEXTURE
+    float intensity;
+    float level_count;
+    vec3 irradiance_sh[9];  // of the picture or the constant; cosine-convolved, E(n) = Σ sh[i] Y_i(n)
+};
+
+struct SceneData {
+    uint64_t lights;  // Light[]
+    uint light_count;
+    uint catcher_count;
+    Environment environment;
+};
+
+FOVERAY_SHARED_END
+
+#ifndef __cplusplus
+FOVERAY_ARRAY(MaterialArray, Material);
+FOVERAY_ARRAY(VertexAttributesArray, VertexAttributes);
+FOVERAY_ARRAY(Vec3Array, vec3);
+FOVERAY_ARRAY(UintArray, uint);
+FOVERAY_ARRAY(InstanceArray, InstanceData);
+FOVERAY_ARRAY(LightArray, Light);
+FOVERAY_ARRAY(SceneDataArray, SceneData);
+#endif
+
+#endif

@@ -1,0 +1,322 @@
+#include "xr/client/headset.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace foveray::xr {
+namespace {
+
+XrEnvironmentBlendMode to_xr_blend_mode(BlendMode mode) {
+    switch (mode) {
+        case BlendMode::Additive:
+            return XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+        case BlendMode::AlphaBlend:
+            return XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+        case BlendMode::Opaque:
+            break;
+    }
+    return XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+}
+
+SpaceHandle make_reference_space(XrSession session, XrReferenceSpaceType type, const Pose& pose) {
+    const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, type, to_xr(pose)};
+    SpaceHandle space;
+    check(xrCreateReferenceSpace(session, &info, space.put()), "xrCreateReferenceSpace");
+    return space;
+}
+
+constexpr float standing_eye_height = 1.6f;  // metres, where the runtime knows no floor
+
+}  // namespace
+
+Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator) {
+    if (choice != RuntimeChoice::Simulator) {
+        try {
+            if (choice == RuntimeChoice::Auto && system_runtime_manifest().empty()) {
+                throw_missing("OpenXR", "no active runtime", "");
+            }
+            instance_ = std::make_unique<Instance>();
+            return;
+        } catch (const Fault& fault) {
+            if (choice == RuntimeChoice::System) throw;
+            log::info("{}; using the simulated headset '{}'", fault.what(), simulator.profile);
+        }
+    }
+    use_simulator(simulator);
+    instance_ = std::make_unique<Instance>();
+    is_simulator_ = true;
+}
+
+Headset::~Headset() { stop(); }
+
+void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, float far_z) {
+    near_z_ = near_z;
+    far_z_ = far_z;
+    const auto& modes = instance_->blend_modes();
+    blend_ = std::find(modes.begin(), modes.end(), blend) != modes.end() ? blend : modes.front();
+
+    XrGraphicsBindingVulkan2KHR binding{XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR};
+    binding.instance = *device.instance();
+    binding.physicalDevice = *device.physical();
+    binding.device = *device.vk();
+    binding.queueFamilyIndex = device.queue_family();
+    binding.queueIndex = 0;
+    const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &binding, 0, instance_->system()};
+    check(xrCreateSession(instance_->get(), &info, session_.put()), "xrCreateSession");
+    make_spaces();
+    make_swapchains();
+    input_ = Input(*instance_, session_.get());
+    read_hidden_meshes();
+}
+
+void Headset::stop() {
+    input_ = Input();
+    color_.clear();
+    depth_.clear();
+    stage_.reset();
+    head_.reset();
+    rendering_gaze_.reset();
+    session_.reset();
+    begun_ = false;
+}
+
+void Headset::make_spaces() {
+    std::uint32_t count = 0;
+    check(xrEnumerateReferenceSpaces(session_.get(), 0, &count, nullptr), "xrEnumerateReferenceSpaces");
+    std::vector<XrReferenceSpaceType> types(count);
+    check(xrEnumerateReferenceSpaces(session_.get(), count, &count, types.data()),
+          "xrEnumerateReferenceSpaces");
+    const auto offers = [&](auto type) { return std::find(types.begin(), types.end(), type) != types.end(); };
+    if (offers(XR_REFERENCE_SPACE_TYPE_STAGE)) {
+        stage_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_STAGE, Pose{});
+    } else {
+        log::info("{} knows no floor: taken to be {} m below the head", instance_->runtime_name(),
+                  standing_eye_height);
+        stage_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_LOCAL,
+                                      {quat(1, 0, 0, 0), vec3(0, -standing_eye_height, 0)});
+    }
+    head_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_VIEW, Pose{});
+    if (instance_->can_foveate() && offers(XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO)) {
+        rendering_gaze_ =
+            make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO, Pose{});
+    }
+}
+
+void Headset::make_swapchains() {
+    sizes_ = instance_->view_sizes(false);
+    foveated_sizes_ = instance_->can_foveate() ? instance_->view_sizes(true) : sizes_;
+    largest_sizes_.clear();
+    const bool with_depth = instance_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
+                            Swapchain::offers(session_.get(), Swapchain::Kind::Depth);
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+        const uvec2 size = glm::max(sizes_[i], foveated_sizes_[i]);
+        const std::string name = "view " + std::to_string(i);
+        largest_sizes_.push_back(size);
+        color_.emplace_back(session_.get(), Swapchain::Kind::Color, size, name.c_str());
+        if (with_depth) depth_.emplace_back(session_.get(), Swapchain::Kind::Depth, size, name.c_str());
+    }
+}
+
+void Headset::read_hidden_meshes() {
+    hidden_meshes_.clear();
+    if (!instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) return;
+    const auto get_mask = instance_->function<PFN_xrGetVisibilityMaskKHR>("xrGetVisibilityMaskKHR");
+    for (std::uint32_t view = 0; view < sizes_.size(); ++view) {
+        XrVisibilityMaskKHR mask{XR_TYPE_VISIBILITY_MASK_KHR};
+        const auto read = [&] {
+            check(get_mask(session_.get(), instance_->view_configuration(), view,
+                           XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask),
+                  "xrGetVisibilityMaskKHR");
+        };
+        read();
+        HiddenMesh mesh;
+        mesh.version = hidden_meshes_.size() + 1 + frame_index_;
+        if (mask.vertexCountOutput > 0 && mask.indexCountOutput > 0) {
+            std::vector<XrVector2f> vertices(mask.vertexCountOutput);
+            mesh.indices.resize(mask.indexCountOutput);
+            mask.vertexCapacityInput = mask.vertexCountOutput;
+            mask.indexCapacityInput = mask.indexCountOutput;
+            mask.vertices = vertices.data();
+            mask.indices = mesh.indices.data();
+            read();
+            for (const XrVector2f& v : vertices) mesh.vertices.emplace_back(v.x, v.y);
+        }
+        hidden_meshes_.push_back(std::move(mesh));
+    }
+}
+
+Headset::State Headset::poll() {
+    while (state_ != State::Ended) {
+        XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
+        if (check(xrPollEvent(instance_->get(), &event), "xrPollEvent") == XR_EVENT_UNAVAILABLE) break;
+        switch (event.type) {
+            case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED:
+                on_state(reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state);
+                break;
+            case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
+                log::warn("the OpenXR runtime {} is shutting down", instance_->runtime_name());
+                state_ = State::Ended;
+                break;
+            case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
+                read_hidden_meshes();
+                break;
+            default:
+                break;
+        }
+    }
+    return state_;
+}
+
+void Headset::on_state(XrSessionState state) {
+    switch (state) {
+        case XR_SESSION_STATE_READY: {
+            const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr,
+                                          instance_->view_configuration()};
+            check(xrBeginSession(session_.get(), &info), "xrBeginSession");
+            begun_ = true;
+            state_ = State::Running;
+            break;
+        }
+        case XR_SESSION_STATE_STOPPING:
+            check(xrEndSession(session_.get()), "xrEndSession");
+            begun_ = false;
+            state_ = State::Waiting;
+            break;
+        case XR_SESSION_STATE_LOSS_PENDING:
+            log::warn("the OpenXR session is being lost");
+            state_ = State::Ended;
+            break;
+        case XR_SESSION_STATE_EXITING:
+            state_ = State::Ended;
+            break;
+        default:
+            break;
+    }
+}
+
+void Headset::request_exit() {
+    if (!begun_) {
+        state_ = State::Ended;
+        return;
+    }
+    check(xrRequestExitSession(session_.get()), "xrRequestExitSession");
+}
+
+bool Headset::rendering_gaze_is_available(XrTime time) const {
+    if (!rendering_gaze_) return false;
+    XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+    check(xrLocateSpace(rendering_gaze_.get(), head_.get(), time, &location), "xrLocateSpace");
+    return (location.locationFlags & XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT) != 0;
+}
+
+Frame Headset::begin_frame() {
+    const XrFrameWaitInfo wait_info{XR_TYPE_FRAME_WAIT_INFO};
+    XrFrameState frame_state{XR_TYPE_FRAME_STATE};
+    check(xrWaitFrame(session_.get(), &wait_info, &frame_state), "xrWaitFrame");
+    const XrFrameBeginInfo begin_info{XR_TYPE_FRAME_BEGIN_INFO};
+    check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame");
+    submission_recorded_ = false;
+
+    if (frame_index_ == 0) first_display_time_ = frame_state.predictedDisplayTime;
+    Frame frame;
+    frame.index = frame_index_++;
+    frame.display_time = frame_state.predictedDisplayTime;
+    frame.time = frame.display_time - first_display_time_;
+    frame.period = frame_state.predictedDisplayPeriod;
+    frame.should_render = frame_state.shouldRender == XR_TRUE;
+    frame.has_eye_tracking = instance_->has_eye_tracking();
+    frame.blend = blend_;
+
+    const bool foveated = rendering_gaze_is_available(frame.display_time);
+    const XrViewLocateFoveatedRenderingVARJO foveation{XR_TYPE_VIEW_LOCATE_FOVEATED_RENDERING_VARJO, nullptr,
+                                                       foveated};
+    XrViewLocateInfo locate{XR_TYPE_VIEW_LOCATE_INFO};
+    locate.next = rendering_gaze_ ? &foveation : nullptr;
+    locate.viewConfigurationType = instance_->view_configuration();
+    locate.displayTime = frame.display_time;
+    locate.space = stage_.get();
+    XrViewState view_state{XR_TYPE_VIEW_STATE};
+    std::uint32_t count = static_cast<std::uint32_t>(sizes_.size());
+    std::vector<XrView> views(count, {XR_TYPE_VIEW});
+    check(xrLocateViews(session_.get(), &locate, &view_state, count, &count, views.data()), "xrLocateViews");
+    const XrViewStateFlags needed = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+    frame.head_valid = (view_state.viewStateFlags & needed) == needed;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        View view;
+        view.eye = i % 2 == 0 ? Eye::Left : Eye::Right;
+        view.role = i < 2 ? ViewRole::Context : ViewRole::Focus;
+        view.stage_from_eye = to_pose(views[i].pose);
+        view.fov = to_fov(views[i].fov);
+        view.size = foveated ? foveated_sizes_[i] : sizes_[i];
+        frame.head_valid = frame.head_valid && is_usable(view.stage_from_eye);
+        frame.views.push_back(view);
+    }
+    // Without a pose there is nothing to show the scene from: hold the last one, or skip the frame.
+    if (frame.head_valid) {
+        last_views_ = frame.views;
+    } else if (last_views_.size() == frame.views.size()) {
+        frame.views = last_views_;
+    } else {
+        frame.should_render = false;
+    }
+
+    XrSpaceLocation head{XR_TYPE_SPACE_LOCATION};
+    check(xrLocateSpace(head_.get(), stage_.get(), frame.display_time, &head), "xrLocateSpace");
+    if (frame.head_valid) frame.stage_from_head = to_pose(head.pose);
+    input_.update(session_.get(), stage_.get(), frame);
+    return frame;
+}
+
+void Headset::record_submission(const gpu::Commands& cmd, const Frame& frame,
+                                const std::vector<ViewPicture>& pictures) {
+    for (std::size_t i = 0; i < frame.views.size(); ++i) {
+        color_[i].record_copy(cmd, pictures[i].color, pictures[i].color_offset, frame.views[i].size);
+        if (!depth_.empty()) {
+            depth_[i].record_copy(cmd, pictures[i].depth, pictures[i].depth_offset, frame.views[i].size);
+        }
+    }
+    submission_recorded_ = true;
+}
+
+void Headset::end_frame(const Frame& frame) {
+    std::vector<XrCompositionLayerProjectionView> views(frame.views.size(),
+                                                        {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW});
+    std::vector<XrCompositionLayerDepthInfoKHR> depths(frame.views.size(),
+                                                       {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR});
+    XrCompositionLayerProjection layer{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
+    const XrCompositionLayerBaseHeader* layers[] = {reinterpret_cast<XrCompositionLayerBaseHeader*>(&layer)};
+    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+    info.displayTime = frame.display_time;
+    info.environmentBlendMode = to_xr_blend_mode(blend_);
+    if (submission_recorded_) {
+        for (Swapchain& swapchain : color_) swapchain.release();
+        for (Swapchain& swapchain : depth_) swapchain.release();
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            const View& view = frame.views[i];
+            const XrRect2Di rect{{0, 0}, {static_cast<int>(view.size.x), static_cast<int>(view.size.y)}};
+            views[i].pose = to_xr(view.stage_from_eye);
+            views[i].fov = to_xr(view.fov);
+            views[i].subImage = {color_[i].get(), rect, 0};
+            if (depth_.empty()) continue;
+            depths[i].subImage = {depth_[i].get(), rect, 0};
+            depths[i].minDepth = 0.0f;
+            depths[i].maxDepth = 1.0f;
+            depths[i].nearZ = near_z_;
+            depths[i].farZ = far_z_;
+            views[i].next = &depths[i];
+        }
+        layer.layerFlags =
+            blend_ == BlendMode::AlphaBlend ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
+        layer.space = stage_.get();
+        layer.viewCount = static_cast<std::uint32_t>(views.size());
+        layer.views = views.data();
+        info.layerCount = 1;
+        info.layers = layers;
+    }
+    check(xrEndFrame(session_.get(), &info), "xrEndFrame");
+}
+
+}  // namespace foveray::xr

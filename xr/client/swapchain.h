@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/gpu/commands.h"
+#include "xr/client/openxr.h"
+
+namespace foveray::xr {
+
+/// Images that the runtime shows. Filled by copies from buffers, because sRGB and depth images often allow no
+/// storage writes.
+class Swapchain {
+  public:
+    enum class Kind { Color, Depth };
+
+    Swapchain() = default;
+    /// Throws Fault(Missing) when the runtime lacks R8G8B8A8_SRGB (colour) or D32_SFLOAT (depth).
+    Swapchain(XrSession session, Kind kind, uvec2 size, const char* name);
+
+    XrSwapchain get() const { return handle_.get(); }
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+    /// Acquires an image, waits for it, and records the copy of a tightly packed picture into its top left
+    /// corner.
+    void record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size);
+    /// After the copy was submitted.
+    void release();
+
+    static bool offers(XrSession session, Kind kind);
+
+  private:
+    Kind kind_ = Kind::Color;
+    SwapchainHandle handle_;
+    std::vector<VkImage> images_;
+    bool acquired_ = false;
+};
+
+}  // namespace foveray::xr
