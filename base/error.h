@@ -11,6 +11,7 @@ enum class ExitCode : int {
     BadInput = 2,    // arguments or files
     Missing = 3,     // the machine lacks something; `foveray doctor` says what
     Internal = 4,
+    Interrupted = 130,  // by Ctrl-C, as shells have it
 };
 
 /// A fault in the world: a file, a device, an argument. A bug in foveray is an assert instead, and an

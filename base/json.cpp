@@ -32,6 +32,8 @@ Json read_json(const std::filesystem::path& file) {
         const auto line = 1 + std::count(s.begin(), s.begin() + std::min(e.byte, s.size()), '\n');
         throw_bad_input(file.string() + ":" + std::to_string(line), "not valid JSON",
                         "correct the syntax there");
+    } catch (const Json::out_of_range&) {
+        throw_bad_input(file.string(), "holds a number that is too large", "correct it");
     }
 }
 
@@ -46,10 +48,11 @@ void check_json(const Json& document, std::string_view schema_text, const std::f
     valijson::ValidationResults results;
     if (validator.validate(schema, Adapter(document), &results)) return;
 
-    // The last error is the innermost one: the place that the user has to mend.
+    // Of the deepest errors the first one names the place that the user has to mend; the later ones only say
+    // that a schema around it failed.
     valijson::ValidationResults::Error error, innermost;
     while (results.popError(error)) {
-        if (error.context.size() >= innermost.context.size()) innermost = error;
+        if (error.context.size() > innermost.context.size()) innermost = error;
     }
     std::string place;
     for (const std::string& step : innermost.context) {

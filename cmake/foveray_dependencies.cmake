@@ -21,6 +21,7 @@ endforeach()
 
 find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
 find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)  # Debian builds Dear ImGui against it
 add_library(foveray_imgui INTERFACE)
 target_include_directories(foveray_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_INCLUDE_DIR}/backends)
-target_link_libraries(foveray_imgui INTERFACE ${IMGUI_LIBRARY} glfw Vulkan::Vulkan ${CMAKE_DL_LIBS})
+target_link_libraries(foveray_imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} glfw Vulkan::Vulkan ${CMAKE_DL_LIBS})

@@ -1,7 +1,8 @@
-# foveray_shaders(TARGET SHADERS files…): compiles GLSL below shaders/ to SPIR-V and embeds it; gpu::shader() finds it
+# foveray_shaders(TARGET SHADERS files… [INCLUDES folders…]): compiles GLSL below shaders/ to SPIR-V and embeds it; gpu::shader() finds it
 # by its path below shaders/. Editing a shader or anything it includes rebuilds it.
 function(foveray_shaders target)
-  cmake_parse_arguments(arg "" "" "SHADERS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SHADERS;INCLUDES" ${ARGN})
+  list(TRANSFORM arg_INCLUDES PREPEND -I)
   set(table "")
   set(headers "")
   foreach(shader ${arg_SHADERS})
@@ -10,7 +11,7 @@ function(foveray_shaders target)
     set(header ${CMAKE_CURRENT_BINARY_DIR}/spirv/${symbol}.h)
     add_custom_command(
       OUTPUT ${header}
-      COMMAND ${GLSLANG_VALIDATOR} --target-env vulkan1.3 -g0 -I${CMAKE_SOURCE_DIR} -I${CMAKE_SOURCE_DIR}/shaders
+      COMMAND ${GLSLANG_VALIDATOR} --target-env vulkan1.3 -g0 -I${CMAKE_SOURCE_DIR} -I${CMAKE_SOURCE_DIR}/shaders ${arg_INCLUDES}
               --depfile ${header}.d --vn ${symbol} -o ${header} ${source}
       DEPENDS ${source}
       DEPFILE ${header}.d

@@ -29,6 +29,9 @@ void wait_for(const Device& device, const vk::raii::Fence& fence) {
     static_cast<void>(result);
 }
 
+// Two a pass of --reference, of which there may be 1024, and the others.
+constexpr std::uint32_t most_stages = 2 * 1024 + 64;
+
 }  // namespace
 
 Commands::Scope::Scope(const Commands& commands, const char* name)
@@ -49,7 +52,7 @@ FrameRing::FrameRing(const Device& device, std::uint32_t frames_in_flight) : dev
         slot.cmd = make_command_buffer(device, slot.pool, "frame " + std::to_string(i));
         slot.fence = vk::raii::Fence(device.vk(), vk::FenceCreateInfo{});
         device.set_name(*slot.fence, "frame fence " + std::to_string(i));
-        slot.timers = GpuTimers(device);
+        slot.timers = GpuTimers(device, most_stages);
         slots_.push_back(std::move(slot));
     }
 }

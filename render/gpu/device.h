@@ -27,8 +27,8 @@ struct DeviceSource {
 struct DeviceOptions {
     bool validation = false;  // Khronos validation layer with synchronisation checks
     std::optional<std::uint32_t>
-        index;  // into vkEnumeratePhysicalDevices; else the first suitable, GPUs first
-    std::vector<std::string> instance_extensions;  // of a window system, say
+        index = {};  // into vkEnumeratePhysicalDevices; else the first suitable, GPUs first
+    std::vector<std::string> instance_extensions = {};  // of a window system, say
     bool presentation = false;                     // VK_KHR_swapchain
 };
 

@@ -32,9 +32,11 @@ std::uint32_t TextureTable::add(vk::ImageView view, const SamplerInfo& info) {
     if (!free_.empty()) {
         index = free_.back();
         free_.pop_back();
-    } else if (used_++ == capacity) {
+    } else if (used_ == capacity) {
         throw_bad_input("textures", "the scene has more than " + std::to_string(capacity) + " textures",
                         "use fewer, or share images and samplers");
+    } else {
+        ++used_;
     }
     replace(index, view, info);
     return index;

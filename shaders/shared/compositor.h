@@ -28,12 +28,13 @@ struct CompositorPush {
     uint tone_mapping;
     float near_m;  // planes of the depth buffer
     float far_m;
+    float environment_intensity;
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::CompositorPush) == 112);
+static_assert(sizeof(foveray::shared::CompositorPush) == 120);
 #endif
 
 #endif

@@ -25,7 +25,11 @@ FOVERAY_CONST uint RAY_COUNTER_KINDS = 4u;
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(LightSample) == 48 && offsetof(LightSample, valid) == 44);
+}  // namespace foveray::shared
+#else
 FOVERAY_ARRAY(LightSampleArray, LightSample);
 FOVERAY_ARRAY(CounterArray, uint);  // [slot * RAY_COUNTER_KINDS + kind]
 #endif

@@ -43,6 +43,24 @@ FOVERAY_INLINE float polar_eccentricity(PolarMap map, float radius) {
                : (map.knee + map.b) * exp((radius - map.radius_knee) / map.a) - map.b;
 }
 
+// Distance between neighbouring samples in degrees: the map's Jacobian, along the radius and along the circle.
+FOVERAY_INLINE float polar_radial_spacing(PolarMap map, float eccentricity) {
+    return map.radius_outer / (float(map.width) * polar_density(map, eccentricity));
+}
+
+FOVERAY_INLINE float polar_angular_spacing(PolarMap map, float eccentricity) {
+#ifdef __cplusplus
+    using std::sin;
+#endif
+    return 360.0f / float(map.height) * sin(eccentricity * 0.017453292519943295f);
+}
+
 FOVERAY_SHARED_END
+
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(PolarMap) == 36 && offsetof(PolarMap, radius_outer) == 32);
+}  // namespace foveray::shared
+#endif
 
 #endif

@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/glm.hpp>

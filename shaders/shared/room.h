@@ -37,7 +37,12 @@ struct RoomParams {
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(RoomProxy) == 48 && offsetof(RoomProxy, half_z) == 36);
+static_assert(sizeof(RoomParams) == 976 && offsetof(RoomParams, proxies) == 208);
+}  // namespace foveray::shared
+#else
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RoomParamsRef { RoomParams value; };
 #endif
 

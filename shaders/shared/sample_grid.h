@@ -44,7 +44,7 @@ struct SampleGrid {
     uint frame_index;
     vec2 jitter;  // GRID_PIXELS: position inside the pixel, [0, 1)
     uint sub_sample;
-    uint pad;
+    uint sub_sample_count;  // samples of a pixel that are averaged; each stands for its share of the pixel
     uint64_t gaze_frames;  // GazeFrame[2]
     PolarMap polar;        // GRID_POLAR: sample = (eye * height + angular) * width + radial
     ViewParams views[4];
@@ -52,7 +52,13 @@ struct SampleGrid {
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(ViewParams) == 96 && offsetof(ViewParams, hidden_mask) == 88);
+static_assert(sizeof(GazeFrame) == 52 && offsetof(GazeFrame, up) == 40);
+static_assert(sizeof(SampleGrid) == 464 && offsetof(SampleGrid, views) == 80);
+}  // namespace foveray::shared
+#else
 FOVERAY_ARRAY(GazeFrameArray, GazeFrame);
 FOVERAY_ARRAY(SampleGridArray, SampleGrid);
 #endif

@@ -115,7 +115,19 @@ struct SceneData {
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(TextureUse) == 32 && offsetof(TextureUse, offset) == 24);
+static_assert(sizeof(Material) == 212 && offsetof(Material, emissive_texture) == 180);
+static_assert(sizeof(VertexAttributes) == 52 && offsetof(VertexAttributes, color) == 44);
+static_assert(sizeof(TriangleRecord) == 56 && offsetof(TriangleRecord, pad) == 52);
+static_assert(sizeof(CatcherRecord) == 48 && offsetof(CatcherRecord, surface) == 44);
+static_assert(sizeof(InstanceData) == 52 && offsetof(InstanceData, node) == 48);
+static_assert(sizeof(Light) == 80 && offsetof(Light, pad) == 76);
+static_assert(sizeof(Environment) == 168 && offsetof(Environment, irradiance_sh) == 60);
+static_assert(sizeof(SceneData) == 184 && offsetof(SceneData, environment) == 16);
+}  // namespace foveray::shared
+#else
 FOVERAY_ARRAY(MaterialArray, Material);
 FOVERAY_ARRAY(VertexAttributesArray, VertexAttributes);
 FOVERAY_ARRAY(Vec3Array, vec3);

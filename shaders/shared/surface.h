@@ -35,7 +35,11 @@ struct Surface {
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(Surface) == 112 && offsetof(Surface, instance) == 108);
+}  // namespace foveray::shared
+#else
 FOVERAY_ARRAY(SurfaceArray, Surface);
 #endif
 

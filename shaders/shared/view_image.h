@@ -23,7 +23,12 @@ struct ViewImage {
 
 FOVERAY_SHARED_END
 
-#ifndef __cplusplus
+#ifdef __cplusplus
+namespace foveray::shared {
+static_assert(sizeof(ResolvedPixel) == 28 && offsetof(ResolvedPixel, depth) == 24);
+static_assert(sizeof(ViewImage) == 32 && offsetof(ViewImage, size) == 24);
+}  // namespace foveray::shared
+#else
 FOVERAY_ARRAY(ResolvedPixelArray, ResolvedPixel);
 FOVERAY_ARRAY(FloatArray, float);
 #endif

@@ -272,6 +272,7 @@ Frame Headset::begin_frame() {
 
 void Headset::record_submission(const gpu::Commands& cmd, const Frame& frame,
                                 const std::vector<ViewPicture>& pictures) {
+    cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
     for (std::size_t i = 0; i < frame.views.size(); ++i) {
         color_[i].record_copy(cmd, pictures[i].color, pictures[i].color_offset, frame.views[i].size);
         if (!depth_.empty()) {

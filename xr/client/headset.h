@@ -13,7 +13,7 @@
 
 namespace foveray::xr {
 
-/// Finished pictures of one view, tightly packed.
+/// Finished pictures of one view, tightly packed, written by compute shaders.
 struct ViewPicture {
     vk::Buffer color;  // sRGB-encoded premultiplied RGBA8
     vk::DeviceSize color_offset = 0;

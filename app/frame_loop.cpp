@@ -1,0 +1,115 @@
+#include "app/frame_loop.h"
+
+#include <chrono>
+
+#include "app/frame_metrics.h"
+#include "app/room_proxies.h"
+
+namespace foveray::app {
+namespace {
+
+constexpr float room_distance = 3.0f;  // metres: how far the room is taken to be where no real surface is known
+
+std::vector<xr::ViewPicture> pictures_of(const render::ViewImages& images) {
+    std::vector<xr::ViewPicture> pictures;
+    for (const auto& buffers : images.buffers) pictures.push_back({buffers.color->vk(), 0, buffers.depth->vk(), 0});
+    return pictures;
+}
+
+void point_gaze(Frame& frame, vec2 pointer) {
+    const View& view = frame.views.front();
+    frame.gaze.valid = frame.has_eye_tracking = true;
+    frame.gaze.time = frame.display_time;
+    frame.gaze.origin = view.stage_from_eye.position;
+    frame.gaze.direction = glm::normalize(transform_direction(view.stage_from_eye, direction_at(view.fov, pointer)));
+}
+
+}  // namespace
+
+FrameLoop::FrameLoop(const FrameLoopSetup& setup)
+    : headset_(setup.headset),
+      camera_(setup.camera),
+      every_pixel_(setup.every_pixel),
+      acuity_(setup.acuity),
+      world_from_stage_(setup.scene.world_from_stage),
+      ring_(setup.device, setup.frames_in_flight),
+      textures_(setup.device),
+      counters_(setup.device, setup.frames_in_flight),
+      pipeline_(setup.device, textures_, setup.frames_in_flight),
+      animator_(setup.scene),
+      gpu_scene_(setup.device, textures_, setup.scene, setup.frames_in_flight),
+      accel_scene_(setup.device, gpu_scene_, pipeline_, setup.frames_in_flight),
+      room_(setup.device, textures_, setup.frames_in_flight, setup.calibration, room_proxies(setup.scene),
+            room_distance),
+      sampling_(setup.device, setup.frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
+      primary_(setup.device, pipeline_.tracer(), pipeline_.primary()),
+      lighting_(setup.device, pipeline_.tracer(), pipeline_.lighting()),
+      resolve_(setup.device, textures_),
+      compositor_(setup.device, textures_),
+      submitted_(setup.frames_in_flight) {}
+
+FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> pointer) {
+    Frame frame = headset_.begin_frame();
+    if (!frame.should_render) {
+        headset_.end_frame(frame);
+        return {std::move(frame), false, {}};
+    }
+    if (pointer && !frame.has_eye_tracking) point_gaze(frame, *pointer);
+    if (!acuity_) acuity_ = acuity_for(frame.views);
+
+    const gpu::Commands cmd = ring_.begin();
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t slot = ring_.slot();
+    counters_.clear(cmd);
+
+    const auto& changes = animator_.advance(frame.time);
+    const auto scene = gpu_scene_.record(cmd, slot, changes, world_from_stage_);
+    accel_scene_.record(cmd, slot, scene, pipeline_);
+    const auto room = room_.record(cmd, slot, room_moment(frame), settings);
+    const auto fovea = foveation_.update(frame, settings);
+    const auto grid = sampling_.record(cmd, slot,
+                                       {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings,
+                                        every_pixel_});
+    render::LightLayers light;
+    for (std::uint32_t sub_sample = 0; sub_sample < grid.sub_sample_count; ++sub_sample) {
+        const auto hits = primary_.record(cmd, grid, sub_sample, counters_.address());
+        light = lighting_.accumulate(
+            cmd, {grid, hits.surfaces, scene.scene_data, room.params, counters_.address(), settings}, sub_sample);
+    }
+    const auto images = resolve_.record(cmd, light, grid, frame.views, settings);
+    compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
+                       passthrough::choose_background(camera_ != nullptr, frame.blend, settings), settings);
+    headset_.record_submission(cmd, frame, pictures_of(images));
+    counters_.read_back(cmd, slot);
+
+    const auto end = std::chrono::steady_clock::now();
+    submitted_[slot] = {frame, every_pixel_ ? uvec2(0) : uvec2(grid.polar.width, grid.polar.height),
+                        std::chrono::duration<double, std::milli>(end - start).count()};
+    ring_.submit();
+    headset_.end_frame(frame);
+    return {std::move(frame), true, images};
+}
+
+passthrough::RoomMoment FrameLoop::room_moment(const Frame& frame) {
+    head_history_.add(frame.time, frame.stage_from_head);
+    passthrough::RoomMoment moment;
+    moment.world_from_stage = world_from_stage_;
+    if (camera_) moment.picture = camera_->at(frame.time);
+    if (moment.picture) moment.stage_from_head = head_history_.at(moment.picture->capture_time);
+    return moment;
+}
+
+FrameMetrics FrameLoop::metrics() const {
+    const std::uint32_t slot = ring_.slot();
+    const Submitted& submitted = submitted_[slot];
+    FrameMetrics metrics = frame_metrics(submitted.frame, world_from_stage_, sampling_.gaze_frames(slot));
+    metrics.polar_size = submitted.polar_size;
+    metrics.cpu_ms = submitted.cpu_ms;
+    const render::RayCounts counts = counters_.counts(slot);
+    metrics.rays = {counts[shared::COUNT_PRIMARY], counts[shared::COUNT_SHADOW], counts[shared::COUNT_REFLECTION],
+                    counts[shared::COUNT_TRANSPARENT]};
+    for (const gpu::StageTime& time : ring_.stage_times()) metrics.stages.emplace_back(time.name, time.milliseconds);
+    return metrics;
+}
+
+}  // namespace foveray::app

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/head_history.h"
+#include "app/report/run_report.h"
+#include "base/frame.h"
+#include "base/headset_profile.h"
+#include "passthrough/camera_source.h"
+#include "passthrough/compositor.h"
+#include "render/accel_scene.h"
+#include "render/foveation.h"
+#include "render/gpu_scene.h"
+#include "render/lighting.h"
+#include "render/primary.h"
+#include "render/ray_counters.h"
+#include "render/ray_pipeline.h"
+#include "render/resolve.h"
+#include "render/sampling.h"
+#include "xr/client/headset.h"
+
+namespace foveray::app {
+
+struct FrameLoopSetup {
+    const gpu::Device& device;
+    xr::Headset& headset;  // started
+    const scene::Scene& scene;
+    passthrough::CameraSource* camera = nullptr;  // null: none
+    std::optional<passthrough::Calibration> calibration;
+    std::optional<Acuity> acuity;  // empty: made from the first frame's views
+    bool every_pixel = false;      // --reference
+    std::uint32_t frames_in_flight = 1;
+};
+
+/// The stages of a frame and the order they run in: design.md, "A frame". Replay and view share it.
+class FrameLoop {
+  public:
+    explicit FrameLoop(const FrameLoopSetup& setup);
+
+    struct Step {
+        Frame frame;
+        bool rendered = false;
+        render::ViewImages images;  // good until the next step
+    };
+    /// One frame, from the runtime's wait to its end. `pointer` (0..1 over the left eye's context view, from the top
+    /// left) stands in for the gaze where the headset has no eye tracking. Throws Fault.
+    Step step(const Settings& settings, std::optional<vec2> pointer = {});
+
+    /// Waits until the GPU has finished everything.
+    void wait() { ring_.wait(); }
+    /// Of the newest frame that the GPU has finished; with one frame in flight and after wait(), of the last step.
+    FrameMetrics metrics() const;
+
+  private:
+    passthrough::RoomMoment room_moment(const Frame& frame);
+
+    xr::Headset& headset_;
+    passthrough::CameraSource* camera_;
+    bool every_pixel_;
+    std::optional<Acuity> acuity_;
+    Pose world_from_stage_;
+    HeadHistory head_history_;
+
+    gpu::FrameRing ring_;
+    gpu::TextureTable textures_;
+    render::RayCounters counters_;
+    render::RayPipeline pipeline_;
+    scene::SceneAnimator animator_;
+    render::GpuScene gpu_scene_;
+    render::AccelScene accel_scene_;
+    passthrough::RoomStage room_;
+    render::Foveation foveation_;
+    render::SamplingStage sampling_;
+    render::PrimaryStage primary_;
+    render::LightingStage lighting_;
+    render::ResolveStage resolve_;
+    passthrough::Compositor compositor_;
+
+    struct Submitted {
+        Frame frame;
+        uvec2 polar_size{0};
+        double cpu_ms = 0.0;
+    };
+    std::vector<Submitted> submitted_;  // by slot
+};
+
+/// What to take a headset of unknown make to resolve: HERR's acuity, capped at the density of its views.
+Acuity acuity_for(const std::vector<View>& views);
+
+}  // namespace foveray::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "base/session.h"
+#include "passthrough/capture/open_camera.h"
+#include "render/scene/load_scene.h"
+
+namespace foveray::app {
+
+/// What a command shows: its own options first, then what the session was recorded with.
+struct Inputs {
+    std::filesystem::path scene_file;
+    scene::Scene scene;
+    std::string camera_name;  // empty: none
+    std::optional<passthrough::Camera> camera;
+};
+
+/// `session` may be null. Without any scene the demo's is taken. Throws Fault.
+Inputs load_inputs(const PictureOptions& options, const Session* session);
+
+/// Validation layers on: environment variable FOVERAY_VALIDATION=1.
+bool validation_wanted();
+
+}  // namespace foveray::app

@@ -1,0 +1,41 @@
+#include "app/session_recorder.h"
+
+#include <utility>
+
+namespace foveray::app {
+
+SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session header)
+    : folder_(folder), session_(std::move(header)) {
+    session_.frames = 0;
+    session_.head.clear();
+    session_.gaze.clear();
+    session_.controllers.clear();
+    session_.events.clear();
+}
+
+void SessionRecorder::add(const Frame& frame) {
+    session_.frames = frame.index + 1;
+    if (frame.head_valid) session_.head.push_back({frame.time, frame.stage_from_head});
+    if (frame.has_eye_tracking) {
+        const Pose head_from_stage = inverse(frame.stage_from_head);
+        GazeSample gaze = frame.gaze;
+        // Trackers stamp on the runtime's clock; a session's starts with its first frame.
+        gaze.time = gaze.valid ? gaze.time - (frame.display_time - frame.time) : frame.time;
+        if (!session_.gaze.empty()) gaze.time = std::max(gaze.time, session_.gaze.back().time);
+        gaze.origin = transform_point(head_from_stage, gaze.origin);
+        gaze.direction = transform_direction(head_from_stage, gaze.direction);
+        session_.gaze.push_back(gaze);
+    }
+    for (int hand = 0; hand < 2; ++hand) {
+        const ControllerState& state = frame.controllers[hand];
+        if (state.valid) session_.controllers.push_back({frame.time, hand, state});
+    }
+}
+
+void SessionRecorder::finish() {
+    if (session_.frames == 0) return;
+    write_session(folder_.path(), session_);
+    folder_.commit();
+}
+
+}  // namespace foveray::app

@@ -1,0 +1,98 @@
+#include <chrono>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/frame_loop.h"
+#include "app/inputs.h"
+#include "app/interrupt.h"
+#include "app/mirror/mirror.h"
+#include "app/session_recorder.h"
+#include "base/log.h"
+
+namespace foveray::app {
+namespace {
+
+/// What is known of the headset before its first frame; a runtime's own headset tells no acuity.
+std::optional<HeadsetProfile> profile_of(const ViewOptions& options, const xr::Headset& headset,
+                                         const std::string& simulated) {
+    if (options.headset) return read_headset_profile(*options.headset);
+    if (headset.is_simulator()) return read_headset_profile(simulated);
+    return std::nullopt;
+}
+
+Session recording_header(const ViewOptions& options, const Inputs& inputs,
+                         const std::optional<HeadsetProfile>& profile) {
+    Session header;
+    header.headset = profile ? profile->name : "ci";
+    header.rate_hz = profile ? profile->rate_hz : 90.0;
+    header.scene = std::filesystem::absolute(inputs.scene_file);
+    if (inputs.camera) header.camera = std::filesystem::absolute(inputs.camera_name);
+    if (options.calibration) header.calibration = std::filesystem::absolute(*options.calibration);
+    return header;
+}
+
+std::vector<Mirror::Picture> mirror_pictures(const FrameLoop::Step& step) {
+    std::vector<Mirror::Picture> pictures;
+    for (std::size_t i = 0; i < step.images.buffers.size(); ++i) {
+        pictures.push_back({step.frame.views[i], step.images.buffers[i].color->vk()});
+    }
+    return pictures;
+}
+
+}  // namespace
+
+ExitCode run_view(const ViewOptions& options) {
+    Inputs inputs = load_inputs(options, nullptr);
+    xr::SimulatorOptions simulator;
+    simulator.profile = options.headset.value_or("ci");
+    simulator.gpu = options.gpu;
+    xr::Headset headset(options.runtime, simulator);
+    const auto profile = profile_of(options, headset, simulator.profile);
+    std::optional<SessionRecorder> recorder;
+    if (options.record) recorder.emplace(*options.record, recording_header(options, inputs, profile));
+
+    std::optional<DesktopWindow> window;
+    if (options.mirror) window.emplace("foveray");
+    gpu::DeviceOptions device_options;
+    if (window) {
+        device_options.presentation = true;
+        device_options.instance_extensions = window->instance_extensions();
+    }
+    device_options.validation = validation_wanted();
+    const gpu::Device device(device_options, headset.device_source());
+    Settings settings = options.settings;
+    const bool over_camera = inputs.camera || !settings.camera_blend;
+    headset.start(device, over_camera ? BlendMode::Opaque : BlendMode::AlphaBlend, settings.near_m,
+                  settings.far_m);
+    FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
+                    inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt,
+                    profile ? std::optional(profile->acuity) : std::nullopt, false, 2});
+    std::optional<Mirror> mirror;
+    if (window) mirror.emplace(device, *window);
+    log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
+
+    catch_interrupts();
+    bool exit_requested = false;
+    for (auto state = headset.poll(); state != xr::Headset::State::Ended; state = headset.poll()) {
+        if ((interrupted() || (mirror && mirror->wants_close())) && !exit_requested) {
+            headset.request_exit();
+            exit_requested = true;
+            continue;
+        }
+        if (state == xr::Headset::State::Waiting) {
+            if (mirror) mirror->show({}, {}, false, settings);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            continue;
+        }
+        const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
+        if (mirror)
+            mirror->show(mirror_pictures(step), loop.metrics(), step.frame.has_eye_tracking, settings);
+        if (recorder) recorder->add(step.frame);
+    }
+    loop.wait();
+    headset.stop();
+    if (recorder) recorder->finish();
+    return device.validation_messages().empty() ? ExitCode::Done : ExitCode::Internal;
+}
+
+}  // namespace foveray::app

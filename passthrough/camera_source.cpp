@@ -1,0 +1,25 @@
+#include "passthrough/camera_source.h"
+
+namespace foveray::passthrough {
+
+void NewestFrame::push(const CameraFramePtr& frame) {
+    const std::lock_guard lock(mutex_);
+    frame_ = frame;
+}
+
+CameraFramePtr NewestFrame::get() const {
+    const std::lock_guard lock(mutex_);
+    return frame_;
+}
+
+CameraFramePtr CameraSource::at(Nanoseconds time) {
+    deliver_until(time);
+    return newest_.get();
+}
+
+void CameraSource::publish(const CameraFramePtr& frame) {
+    newest_.push(frame);
+    for (FrameSink* sink : sinks_) sink->push(frame);
+}
+
+}  // namespace foveray::passthrough

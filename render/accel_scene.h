@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/gpu/acceleration.h"
+#include "render/gpu_scene.h"
+#include "render/ray_pipeline.h"
+
+namespace foveray::render {
+
+/// The scene as rays find it: a bottom-level structure a shape, and each frame a top-level one over all
+/// instances. Instance masks are GpuInstance::mask. Single-sided triangles are invisible to surface rays from
+/// behind, and block light from both sides.
+class AccelScene {
+  public:
+    /// Deforming shapes are refitted each time their vertices change, and rebuilt in each N-th of these
+    /// times.
+    static constexpr std::uint32_t rebuild_period = 32;
+
+    /// Builds the structures and fills the pipeline's shader table with the scene's geometries. Waits. The
+    /// scene must outlive this.
+    AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipeline& pipeline, std::uint32_t slots);
+
+    /// Stage "acceleration". Makes the frame's structure and points the pipeline's slot at it: traces may
+    /// follow.
+    void record(const gpu::Commands& cmd, std::uint32_t slot, const GpuSceneFrame& frame,
+                RayPipeline& pipeline);
+
+  private:
+    struct Shape {
+        std::vector<gpu::AccelerationGeometry> geometries;
+        gpu::BottomLevel structure;
+        std::uint32_t record_offset = 0;
+        bool any_double_sided = false;
+        std::uint32_t updates = 0;
+    };
+
+    std::vector<Shape> shapes_;  // parallel to GpuScene::shapes()
+    gpu::TopLevel top_level_;
+    std::vector<gpu::TopLevelInstance> instances_;
+};
+
+}  // namespace foveray::render

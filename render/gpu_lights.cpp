@@ -1,0 +1,46 @@
+#include "render/gpu_lights.h"
+
+namespace foveray::render {
+namespace {
+
+std::uint32_t type_of(scene::LightKind kind) {
+    switch (kind) {
+        case scene::LightKind::Directional:
+            return shared::LIGHT_DIRECTIONAL;
+        case scene::LightKind::Point:
+            return shared::LIGHT_POINT;
+        case scene::LightKind::Spot:
+            return shared::LIGHT_SPOT;
+    }
+    return shared::LIGHT_POINT;
+}
+
+}  // namespace
+
+std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes) {
+    std::vector<shared::Light> result;
+    for (const scene::PlacedLight& light : changes.lights) {
+        shared::Light packed{};
+        packed.position = light.position;
+        packed.type = type_of(light.kind);
+        packed.direction = light.direction;
+        packed.range = light.range;
+        packed.intensity = light.intensity;
+        packed.cos_inner = light.cos_inner_cone;
+        packed.cos_outer = light.cos_outer_cone;
+        result.push_back(packed);
+    }
+    for (const scene::PlacedAreaLight& light : changes.area_lights) {
+        shared::Light packed{};
+        packed.position = light.center;
+        packed.type = shared::LIGHT_AREA;
+        packed.direction = glm::normalize(glm::cross(light.half_u, light.half_v));
+        packed.intensity = light.radiance;
+        packed.half_u = light.half_u;
+        packed.half_v = light.half_v;
+        result.push_back(packed);
+    }
+    return result;
+}
+
+}  // namespace foveray::render

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "render/scene/animator.h"
+#include "shaders/shared/scene.h"
+
+namespace foveray::render {
+
+/// A frame's lights as shaders read them: punctual lights, then area lights, each in the scene's order.
+std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes);
+
+}  // namespace foveray::render

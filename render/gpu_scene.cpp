@@ -1,0 +1,142 @@
+#include "render/gpu_scene.h"
+
+#include "render/gpu_lights.h"
+#include "shaders/shared/ray_types.h"
+
+namespace foveray::render {
+namespace {
+
+std::size_t light_count(const scene::Scene& scene) {
+    std::size_t count = 0;
+    for (const scene::Node& node : scene.nodes) count += node.light.has_value() + node.area_light.has_value();
+    return count;
+}
+
+std::vector<bool> used_meshes(const scene::Scene& scene) {
+    std::vector<bool> used(scene.meshes.size());
+    for (const scene::Instance& instance : scene.instances) used[instance.mesh] = true;
+    for (const scene::RealSurface& surface : scene.real_surfaces) used[surface.mesh] = true;
+    return used;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const scene::Scene& scene,
+                   std::uint32_t slots)
+    : scene_(scene),
+      uploader_(device),
+      textures_(device, textures, uploader_, scene),
+      environment_(device, textures, scene.environment) {
+    materials_ = uploader_.buffer("materials", gpu::range_bytes(textures_.materials()));
+    upload_shapes(device, textures, uploader_, slots);
+    uploader_.flush();
+    instances_.resize(shape_of_instance_.size());
+    previous_.resize(shape_of_instance_.size());
+    instance_data_ = FrameBuffer(device, "instances", previous_.size() * sizeof(shared::InstanceData), slots);
+    lights_ = FrameBuffer(device, "lights", light_count(scene) * sizeof(shared::Light), slots);
+    scene_data_ = FrameBuffer(device, "scene data", sizeof(shared::SceneData), slots);
+}
+
+void GpuScene::upload_shapes(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
+                             std::uint32_t slots) {
+    const std::vector<bool> used = used_meshes(scene_);
+    meshes_.resize(scene_.meshes.size());
+    for (scene::MeshId id = 0; id < meshes_.size(); ++id) {
+        if (!used[id]) continue;
+        const scene::Mesh& mesh = scene_.meshes[id];
+        meshes_[id] =
+            std::make_unique<GpuMesh>(uploader, "mesh " + std::to_string(id) + " " + mesh.name, mesh);
+    }
+    const auto add_shape = [&](std::string name, GpuShape::Kind kind, std::uint32_t source,
+                               const std::vector<GpuGeometry>& geometries) {
+        shapes_.push_back({std::move(name), kind, source, geometries});
+        return static_cast<std::uint32_t>(shapes_.size() - 1);
+    };
+
+    constexpr std::uint32_t none = ~0u;
+    std::vector<std::uint32_t> shape_of_mesh(meshes_.size(), none);
+    for (const scene::Instance& instance : scene_.instances) {
+        std::uint32_t& shape = shape_of_mesh[instance.mesh];
+        if (instance.deformation || shape != none) continue;
+        shape = add_shape("mesh " + std::to_string(instance.mesh), GpuShape::Kind::Mesh, instance.mesh,
+                          meshes_[instance.mesh]->geometries());
+    }
+    first_deformed_shape_ = static_cast<std::uint32_t>(shapes_.size());
+    std::vector<const GpuMesh*> rest;
+    for (const scene::Deformation& deformation : scene_.deformations)
+        rest.push_back(meshes_[deformation.mesh].get());
+    deform_ = std::make_unique<DeformStage>(device, textures, uploader, scene_, rest, slots);
+    for (scene::DeformationId id = 0; id < scene_.deformations.size(); ++id) {
+        add_shape("deformation " + std::to_string(id), GpuShape::Kind::DeformedMesh, id,
+                  deform_->geometries(id));
+    }
+    for (const scene::Instance& instance : scene_.instances) {
+        shape_of_instance_.push_back(instance.deformation ? first_deformed_shape_ + *instance.deformation
+                                                          : shape_of_mesh[instance.mesh]);
+    }
+    for (std::uint32_t id = 0; id < scene_.real_surfaces.size(); ++id) {
+        const scene::RealSurface& surface = scene_.real_surfaces[id];
+        shape_of_instance_.push_back(add_shape("real surface " + std::to_string(id) + " " + surface.name,
+                                               GpuShape::Kind::RealSurface, id,
+                                               meshes_[surface.mesh]->geometries()));
+    }
+    shape_changed_.resize(shapes_.size());
+}
+
+void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& world_from_stage) {
+    const std::size_t virtual_count = scene_.instances.size();
+    for (std::size_t i = 0; i < virtual_count; ++i) {
+        const scene::InstanceState& state = changes.instances[i];
+        const scene::Instance& source = scene_.instances[i];
+        GpuInstance& instance = instances_[i];
+        instance.shape = shape_of_instance_[i];
+        instance.world_from_object = state.world_from_object;
+        const bool moves = state.moved || shape_changed_[instance.shape];
+        instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
+        if (source.deformation) {
+            const auto& joints = changes.deformations[*source.deformation].joints;
+            instance.mirrored_vertices = !joints.empty() && glm::determinant(mat3(joints.front())) < 0.0f;
+        }
+        previous_[i] = {glm::mat4x3(state.previous_world_from_object), source.node};
+    }
+    const mat4 world_from_stage_matrix = to_matrix(world_from_stage);
+    for (std::size_t i = 0; i < scene_.real_surfaces.size(); ++i) {
+        GpuInstance& instance = instances_[virtual_count + i];
+        const mat4 before = instance.world_from_object;
+        instance.shape = shape_of_instance_[virtual_count + i];
+        instance.world_from_object = world_from_stage_matrix * scene_.real_surfaces[i].stage_from_object;
+        instance.mask = shared::MASK_REAL;
+        previous_[virtual_count + i] = {glm::mat4x3(started_ ? before : instance.world_from_object),
+                                        static_cast<std::uint32_t>(i)};
+    }
+}
+
+GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
+                               const scene::SceneChanges& changes, const Pose& world_from_stage) {
+    using gpu::Access;
+    const auto stage = cmd.stage("scene");
+    deform_->record(cmd, slot, changes.deformations);
+    for (scene::DeformationId id = 0; id < scene_.deformations.size(); ++id) {
+        shape_changed_[first_deformed_shape_ + id] = deform_->changed(id);
+    }
+    update_instances(changes, world_from_stage);
+    started_ = true;
+
+    const std::vector<shared::Light> lights = pack_lights(changes);
+    shared::SceneData data{};
+    data.lights = lights_.address();
+    data.light_count = static_cast<std::uint32_t>(lights.size());
+    data.catcher_count = static_cast<std::uint32_t>(scene_.real_surfaces.size());
+    data.environment = environment_.shared();
+
+    cmd.barrier(Access::RayTracingRead, Access::TransferWrite);
+    cmd.barrier(Access::ComputeRead, Access::TransferWrite);
+    instance_data_.record(cmd, slot, gpu::range_bytes(previous_));
+    lights_.record(cmd, slot, gpu::range_bytes(lights));
+    scene_data_.record(cmd, slot, gpu::bytes_of(data));
+    cmd.barrier(Access::TransferWrite, Access::RayTracingRead);
+    cmd.barrier(Access::TransferWrite, Access::ComputeRead);
+    return {scene_data_.address(), instances_, shape_changed_};
+}
+
+}  // namespace foveray::render

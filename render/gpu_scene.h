@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/deform.h"
+#include "render/environment_light.h"
+#include "render/frame_buffer.h"
+#include "render/gpu_mesh.h"
+#include "render/scene/animator.h"
+#include "render/scene_textures.h"
+
+namespace foveray::render {
+
+/// What one bottom-level structure is built of.
+struct GpuShape {
+    enum class Kind { Mesh, DeformedMesh, RealSurface };
+
+    std::string name;
+    Kind kind = Kind::Mesh;
+    std::uint32_t source = 0;  // id of the mesh, deformation or real surface
+    std::vector<GpuGeometry> geometries;
+};
+
+/// A shape in the world in one frame.
+struct GpuInstance {
+    std::uint32_t shape = 0;
+    mat4 world_from_object{1.0f};
+    std::uint32_t mask = 0;  // shared::MASK_…
+    bool mirrored_vertices =
+        false;  // the vertices were mirrored before world_from_object: triangles face the other way
+};
+
+/// What a frame's shaders and builds find; good until the next record().
+struct GpuSceneFrame {
+    vk::DeviceAddress scene_data = 0;  // shared::SceneData
+    std::span<const GpuInstance>
+        instances;  // by gl_InstanceCustomIndexEXT: the scene's, then its real surfaces
+    std::span<const std::uint8_t>
+        shape_changed;  // by shape: its vertices differ from those of the frame before
+};
+
+/// A scene on the GPU: uploaded once, then each frame brought to the state that the animator gives.
+/// Everything is reached by device address; textures are in the texture table.
+class GpuScene {
+  public:
+    /// `slots`: frames in flight. The scene and the table must outlive this. Uploads and waits.
+    GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const scene::Scene& scene,
+             std::uint32_t slots);
+
+    const scene::Scene& scene() const { return scene_; }
+    /// Meshes that are in use, then deformed meshes, then real surfaces.
+    const std::vector<GpuShape>& shapes() const { return shapes_; }
+    vk::DeviceAddress materials() const { return materials_.address(); }      // shared::Material[]
+    vk::DeviceAddress instances() const { return instance_data_.address(); }  // shared::InstanceData[]
+
+    /// Stage "scene". Once a frame, in order; the slot's earlier frame must be done. Orders itself after
+    /// earlier frames' reads and before this frame's builds, traces and compute shaders.
+    GpuSceneFrame record(const gpu::Commands& cmd, std::uint32_t slot, const scene::SceneChanges& changes,
+                         const Pose& world_from_stage);
+
+  private:
+    void upload_shapes(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
+                       std::uint32_t slots);
+    void update_instances(const scene::SceneChanges& changes, const Pose& world_from_stage);
+
+    const scene::Scene& scene_;
+    gpu::Uploader uploader_;
+    SceneTextures textures_;
+    EnvironmentLight environment_;
+    std::vector<std::unique_ptr<GpuMesh>> meshes_;  // by mesh id; null: not in use
+    std::unique_ptr<DeformStage> deform_;
+    gpu::Buffer materials_;
+    FrameBuffer instance_data_, lights_, scene_data_;
+    std::vector<GpuShape> shapes_;
+    std::vector<std::uint32_t> shape_of_instance_;  // instances, then real surfaces
+    std::vector<GpuInstance> instances_;
+    std::vector<shared::InstanceData> previous_;  // parallel to instances_
+    std::vector<std::uint8_t> shape_changed_;
+    std::uint32_t first_deformed_shape_ = 0;
+    bool started_ = false;
+};
+
+}  // namespace foveray::render

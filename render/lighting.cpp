@@ -1,0 +1,62 @@
+#include "render/lighting.h"
+
+#include <map>
+
+#include "shaders/shared/lighting.h"
+
+namespace foveray::render {
+namespace {
+
+/// Tiles and samples are drawn by resolve, over the light.
+std::uint32_t debug_view(const Settings& settings) {
+    static const std::map<std::string, std::uint32_t> views = {{"normal", shared::LIGHTING_DEBUG_NORMAL},
+                                                               {"albedo", shared::LIGHTING_DEBUG_ALBEDO},
+                                                               {"shadow", shared::LIGHTING_DEBUG_SHADOW},
+                                                               {"depth", shared::LIGHTING_DEBUG_DEPTH}};
+    const auto it = views.find(settings.debug_view);
+    return it == views.end() ? shared::LIGHTING_DEBUG_NONE : it->second;
+}
+
+}  // namespace
+
+LightingStage::LightingStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
+                             engine::RayGeneration lighting)
+    : device_(device), tracer_(tracer), lighting_(lighting) {}
+
+LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingInput& input,
+                                      std::uint32_t sub_sample) {
+    using gpu::Access;
+    const auto stage = cmd.stage("lighting");
+    const Settings& settings = input.settings;
+    const vk::DeviceSize bytes = vk::DeviceSize{input.grid.sample_count} * sizeof(shared::LightSample);
+    if (samples_.size() < bytes) {
+        device_.vk().waitIdle();
+        samples_ = gpu::Buffer(device_, "light samples", bytes, gpu::Residence::Device);
+    }
+
+    shared::LightingPush push{};
+    push.grid = input.grid.at(sub_sample);
+    push.surfaces = input.surfaces;
+    push.samples = samples_.address();
+    push.scene = input.scene;
+    push.room = input.room;
+    push.counters = input.counters;
+    push.flags = (settings.shadows ? shared::LIGHTING_SHADOWS : 0u) |
+                 (settings.reflections ? shared::LIGHTING_REFLECTIONS : 0u);
+    push.shadow_samples = static_cast<std::uint32_t>(settings.shadow_samples);
+    push.max_transparent_layers = static_cast<std::uint32_t>(settings.max_transparent_layers);
+    push.debug_view = debug_view(settings);
+    push.reflection_max_roughness = settings.reflection_max_roughness;
+    push.environment_intensity = settings.environment_intensity;
+
+    // Earlier frames may still read the samples; earlier sub-samples wrote them.
+    cmd.barrier(Access::ComputeRead, Access::RayTracingWrite);
+    cmd.barrier(Access::RayTracingWrite, Access::RayTracingWrite);
+    constexpr std::uint32_t row = 4096;  // samples in a row of the launch
+    tracer_.trace(cmd, lighting_, push, {row, (input.grid.sample_count + row - 1) / row, 1});
+    cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
+    cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
+    return {samples_.address(), &samples_};
+}
+
+}  // namespace foveray::render

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/gpu/commands.h"
+#include "shaders/shared/light_layers.h"
+
+namespace foveray::render {
+
+/// Rays traced in one frame, by shared::COUNT_….
+using RayCounts = std::array<std::uint64_t, shared::RAY_COUNTER_KINDS>;
+
+/// Counts a frame's rays on the GPU: shaders add at `address()`.
+class RayCounters {
+  public:
+    RayCounters(const gpu::Device& device, std::uint32_t slots);
+
+    vk::DeviceAddress address() const {
+        return counters_.address();
+    }  // uint[RAY_COUNTER_SLOTS][RAY_COUNTER_KINDS]
+    /// Before the frame's first ray.
+    void clear(const gpu::Commands& cmd) const;
+    /// After its last one.
+    void read_back(const gpu::Commands& cmd, std::uint32_t slot) const;
+    /// Of the slot's newest frame that the GPU has finished.
+    RayCounts counts(std::uint32_t slot) const;
+
+  private:
+    gpu::Buffer counters_;
+    std::vector<gpu::Buffer> slots_;
+};
+
+}  // namespace foveray::render

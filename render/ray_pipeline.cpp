@@ -1,0 +1,43 @@
+#include "render/ray_pipeline.h"
+
+#include <utility>
+
+namespace foveray::render {
+
+RayPipeline::Declared RayPipeline::declare() {
+    using engine::HitGroup;
+    using engine::RayType;
+    Declared d{engine::SceneProgram("scene", RayType{"surface", "render/surface.rmiss"},
+                                    RayType{"shadow", "render/shadow.rmiss"}),
+               {},
+               {},
+               {},
+               {},
+               {}};
+    d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
+        "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
+        HitGroup{"render/shadow.rchit", "render/shadow.rahit", ""});
+    d.catchers = d.program.add_geometry_type<shared::CatcherRecord>(
+        "catchers", HitGroup{"render/catcher.rchit", "", ""}, HitGroup{"render/shadow.rchit", "", ""});
+    d.fixation = d.program.add_ray_generation("render/fixation.rgen");
+    d.primary = d.program.add_ray_generation("render/primary.rgen");
+    d.lighting = d.program.add_ray_generation("render/lighting.rgen");
+    return d;
+}
+
+RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots)
+    : RayPipeline(device, textures, slots, declare()) {}
+
+RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
+                         Declared declared)
+    : declared_(std::move(declared)), tracer_(device, textures, slots, declared_.program) {}
+
+RayPipeline::Geometry RayPipeline::triangles(const shared::TriangleRecord& record) const {
+    return engine::SceneProgram::geometry(declared_.triangles, record);
+}
+
+RayPipeline::Geometry RayPipeline::catcher(const shared::CatcherRecord& record) const {
+    return engine::SceneProgram::geometry(declared_.catchers, record);
+}
+
+}  // namespace foveray::render

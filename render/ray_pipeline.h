@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/engine/scene_types.h"
+
+namespace foveray::render {
+
+/// What every ray of a frame runs: the one place that lists ray types, geometry types and ray-generation
+/// shaders. Its shader table holds the geometries of one scene (AccelScene).
+class RayPipeline {
+  public:
+    using Geometry = engine::SceneProgram::Geometry;
+    using Range = engine::SceneRayTracer::Range;
+
+    /// `slots`: frames in flight. The texture table must outlive the pipeline.
+    RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots);
+
+    Geometry triangles(const shared::TriangleRecord& record) const;
+    /// A real surface: found by surface rays, invisible itself.
+    Geometry catcher(const shared::CatcherRecord& record) const;
+
+    /// Ray-generation shaders, by the stage that traces them.
+    engine::RayGeneration fixation() const { return declared_.fixation; }
+    engine::RayGeneration primary() const { return declared_.primary; }
+    engine::RayGeneration lighting() const { return declared_.lighting; }
+
+    engine::SceneRayTracer& tracer() { return tracer_; }
+    const engine::SceneRayTracer& tracer() const { return tracer_; }
+
+  private:
+    struct Declared {
+        engine::SceneProgram program;
+        engine::GeometryType<shared::TriangleRecord> triangles;
+        engine::GeometryType<shared::CatcherRecord> catchers;
+        engine::RayGeneration fixation, primary, lighting;
+    };
+    static Declared declare();
+
+    RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
+                Declared declared);
+
+    Declared declared_;
+    engine::SceneRayTracer tracer_;
+};
+
+}  // namespace foveray::render

@@ -1,0 +1,60 @@
+#include "render/resolve.h"
+
+#include <string>
+
+#include "shaders/shared/resolve.h"
+
+namespace foveray::render {
+namespace {
+
+std::uint32_t debug_view(const Settings& settings) {
+    if (settings.debug_view == "tiles") return shared::RESOLVE_DEBUG_TILES;
+    if (settings.debug_view == "samples") return shared::RESOLVE_DEBUG_SAMPLES;
+    return shared::RESOLVE_DEBUG_NONE;
+}
+
+}  // namespace
+
+ResolveStage::ResolveStage(const gpu::Device& device, const gpu::TextureTable& textures)
+    : device_(device), pipeline_(device, "render/resolve.comp", textures, sizeof(shared::ResolvePush)) {}
+
+ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
+                                std::span<const View> views, const Settings& settings) {
+    using gpu::Access;
+    const auto stage = cmd.stage("resolve");
+    // Whoever read the pictures of the frame before.
+    cmd.barrier(Access::ComputeRead, Access::ComputeWrite);
+    ViewImages result;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const uvec2 size = views[i].size;
+        const vk::DeviceSize pixels = vk::DeviceSize{size.x} * size.y;
+        Buffers& buffers = buffers_[i];
+        if (buffers.resolved.size() < pixels * sizeof(shared::ResolvedPixel)) {
+            device_.vk().waitIdle();
+            const auto make = [&](const char* name, vk::DeviceSize bytes) {
+                return gpu::Buffer(device_, name + (" of view " + std::to_string(i)), pixels * bytes,
+                                   gpu::Residence::Device);
+            };
+            buffers.resolved = make("resolved pixels", sizeof(shared::ResolvedPixel));
+            buffers.color = make("colour", sizeof(std::uint32_t));
+            buffers.depth = make("depth", sizeof(float));
+        }
+        result.images.push_back(
+            {buffers.resolved.address(), buffers.color.address(), buffers.depth.address(), size});
+        result.buffers.push_back({&buffers.resolved, &buffers.color, &buffers.depth});
+
+        shared::ResolvePush push{};
+        push.grid = grid.at(0);
+        push.samples = light.samples;
+        push.resolved = buffers.resolved.address();
+        push.view = static_cast<std::uint32_t>(i);
+        push.filter_kind =
+            settings.resolve_filter == "bilinear" ? shared::RESOLVE_BILINEAR : shared::RESOLVE_BICUBIC;
+        push.debug_view = debug_view(settings);
+        pipeline_.dispatch(cmd, push, {size.x, size.y, 1}, {8, 8, 1});
+    }
+    cmd.barrier(Access::ComputeWrite, Access::ComputeRead);
+    return result;
+}
+
+}  // namespace foveray::render

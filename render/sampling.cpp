@@ -1,0 +1,170 @@
+#include "render/sampling.h"
+
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "render/polar_map.h"
+#include "render/visibility_mask.h"
+#include "shaders/shared/fixation.h"
+
+namespace foveray::render {
+namespace {
+
+constexpr vk::DeviceSize mask_bytes = hidden_mask_words * sizeof(std::uint32_t);
+
+/// Positions inside a pixel that cover it evenly however many are taken: Roberts' R2 sequence, from the
+/// centre on.
+vec2 sub_sample_position(std::uint32_t index) {
+    constexpr double g = 1.32471795724474602596;
+    const double x = 0.5 + index / g, y = 0.5 + index / (g * g);
+    return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
+}
+
+}  // namespace
+
+Acuity effective_acuity(const Acuity& headset, const Settings& settings) {
+    Acuity acuity = headset;
+    if (settings.acuity_a > 0.0f) acuity.a = settings.acuity_a;
+    if (settings.acuity_b > 0.0f) acuity.b = settings.acuity_b;
+    if (settings.cap_ppd > 0.0f) acuity.cap_ppd = settings.cap_ppd;
+    return acuity;
+}
+
+shared::ViewParams view_params(const View& view, const Pose& world_from_stage) {
+    const Pose world_from_eye = world_from_stage * view.stage_from_eye;
+    shared::ViewParams params{};
+    params.origin = world_from_eye.position;
+    params.eye = static_cast<std::uint32_t>(view.eye);
+    params.role = static_cast<std::uint32_t>(view.role);
+    params.right = transform_direction(world_from_eye, {1.0f, 0.0f, 0.0f});
+    params.up = transform_direction(world_from_eye, {0.0f, 1.0f, 0.0f});
+    params.forward = transform_direction(world_from_eye, {0.0f, 0.0f, -1.0f});
+    params.tangents = {std::tan(view.fov.left), std::tan(view.fov.right), std::tan(view.fov.up),
+                       std::tan(view.fov.down)};
+    params.size = view.size;
+    return params;
+}
+
+SamplingStage::SamplingStage(const gpu::Device& device, std::uint32_t slots,
+                             const engine::SceneRayTracer& tracer, engine::RayGeneration fixation)
+    : device_(device),
+      tracer_(tracer),
+      fixation_(fixation),
+      slots_(slots),
+      gaze_frames_(device, "gaze frames", 2 * sizeof(shared::GazeFrame), gpu::Residence::Device),
+      state_(device, "fixation state", sizeof(shared::FixationState), gpu::Residence::Device) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        const std::string suffix = " " + std::to_string(i);
+        slots_[i].masks = gpu::Buffer(device, "visibility masks" + suffix, shared::MAX_VIEWS * mask_bytes,
+                                      gpu::Residence::Upload);
+        slots_[i].gaze_frames = gpu::Buffer(device, "gaze frames read back" + suffix, gaze_frames_.size(),
+                                            gpu::Residence::Readback);
+    }
+}
+
+vk::DeviceAddress SamplingStage::hidden_mask(Slot& slot, std::size_t view, const Fov& fov,
+                                             std::span<const HiddenMesh> hidden) {
+    if (view >= hidden.size() || hidden[view].indices.empty()) return 0;
+    Mask& mask = masks_[view];
+    if (mask.change == 0 || mask.version != hidden[view].version || mask.fov != fov) {
+        mask.version = hidden[view].version;
+        mask.fov = fov;
+        mask.words = hidden_cells(hidden[view], fov);
+        ++mask.change;
+    }
+    if (mask.words.empty()) return 0;
+    if (slot.mask_change[view] != mask.change) {
+        slot.masks.write(gpu::range_bytes(mask.words), view * mask_bytes);
+        slot.mask_change[view] = mask.change;
+    }
+    return slot.masks.address() + view * mask_bytes;
+}
+
+SampleGrid SamplingStage::record(const gpu::Commands& cmd, std::uint32_t slot_index,
+                                 const SamplingInput& input) {
+    const auto stage = cmd.stage("sampling");
+    Slot& slot = slots_[slot_index];
+    const auto& views = input.frame.views;
+    assert(!views.empty() && views.size() <= shared::MAX_VIEWS);
+
+    SampleGrid grid;
+    grid.kind = input.every_pixel ? shared::GRID_PIXELS : shared::GRID_POLAR;
+    grid.sub_sample_count =
+        input.every_pixel ? static_cast<std::uint32_t>(input.settings.reference_samples) : 1u;
+    grid.polar = widen_fovea(make_polar_map(effective_acuity(input.acuity, input.settings),
+                                            input.settings.resolution_scale, input.settings.angular_ratio),
+                             input.fovea.radius_degrees);
+
+    shared::SampleGrid params{};
+    params.kind = grid.kind;
+    params.view_count = static_cast<std::uint32_t>(views.size());
+    params.frame_index = static_cast<std::uint32_t>(input.frame.index);
+    params.sub_sample_count = grid.sub_sample_count;
+    params.gaze_frames = gaze_frames_.address();
+    params.polar = grid.polar;
+    const std::uint32_t eye_samples = grid.polar.width * grid.polar.height;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        shared::ViewParams& view = params.views[i];
+        view = view_params(views[i], input.world_from_stage);
+        view.hidden_mask = hidden_mask(slot, i, views[i].fov, input.hidden);
+        view.first_sample = input.every_pixel ? grid.sample_count : view.eye * eye_samples;
+        if (input.every_pixel) grid.sample_count += view.size.x * view.size.y;
+    }
+    if (!input.every_pixel) grid.sample_count = 2 * eye_samples;
+    params.sample_count = grid.sample_count;
+
+    const vk::DeviceSize bytes = grid.sub_sample_count * sizeof(params);
+    if (slot.grids.size() < bytes) {
+        slot.grids =
+            gpu::Buffer(device_, "sample grids " + std::to_string(slot_index), bytes, gpu::Residence::Upload);
+    }
+    grid.grids = slot.grids.address();
+    for (std::uint32_t i = 0; i < grid.sub_sample_count; ++i) {
+        params.sub_sample = i;
+        params.jitter = sub_sample_position(i);
+        slot.grids.write(gpu::bytes_of(params), i * sizeof(params));
+    }
+    record_fixation(cmd, slot, input, grid);
+    return grid;
+}
+
+void SamplingStage::record_fixation(const gpu::Commands& cmd, Slot& slot, const SamplingInput& input,
+                                    const SampleGrid& grid) {
+    using gpu::Access;
+    const Nanoseconds now = input.frame.display_time;
+    const double steps =
+        started_ ? to_seconds(std::max<Nanoseconds>(now - last_time_, 0)) / to_seconds(smoothing_time)
+                 : std::numeric_limits<double>::infinity();
+    started_ = true;
+    last_time_ = now;
+
+    shared::FixationPush push{};
+    push.grid = grid.grids;
+    push.gaze_frames = gaze_frames_.address();
+    push.state = state_.address();
+    push.origin = transform_point(input.world_from_stage, input.fovea.origin);
+    push.direction = glm::normalize(transform_direction(input.world_from_stage, input.fovea.direction));
+    push.far_distance = far_distance;
+    push.blend = static_cast<float>(1.0 - std::exp(-steps));
+
+    // Earlier frames may still read the gaze frames.
+    cmd.barrier(Access::RayTracingWrite, Access::RayTracingWrite);
+    cmd.barrier(Access::ComputeRead, Access::RayTracingWrite);
+    cmd.barrier(Access::TransferRead, Access::RayTracingWrite);
+    tracer_.trace(cmd, fixation_, push, {1, 1, 1});
+    cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
+    cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
+    cmd.barrier(Access::RayTracingWrite, Access::TransferRead);
+    cmd->copyBuffer(gaze_frames_.vk(), slot.gaze_frames.vk(), vk::BufferCopy(0, 0, gaze_frames_.size()));
+    cmd.barrier(Access::TransferWrite, Access::HostRead);
+}
+
+std::array<shared::GazeFrame, 2> SamplingStage::gaze_frames(std::uint32_t slot) const {
+    const gpu::Buffer& buffer = slots_[slot].gaze_frames;
+    buffer.invalidate();
+    const auto frames = buffer.mapped_as<shared::GazeFrame>();
+    return {frames[0], frames[1]};
+}
+
+}  // namespace foveray::render

@@ -1,0 +1,14 @@
+#include "render/scene/material.h"
+
+#include <cmath>
+
+namespace foveray::scene {
+
+mat3 uv_matrix(const TextureUse& use) {
+    const float c = std::cos(use.rotation), s = std::sin(use.rotation);
+    // v grows downwards, so counter-clockwise to the eye is clockwise in (u, v).
+    return {vec3(c * use.scale.x, -s * use.scale.x, 0.0f), vec3(s * use.scale.y, c * use.scale.y, 0.0f),
+            vec3(use.offset, 1.0f)};
+}
+
+}  // namespace foveray::scene

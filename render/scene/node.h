@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/math.h"
+#include "render/scene/ids.h"
+
+namespace foveray::scene {
+
+struct Transform {
+    vec3 translation{0.0f};
+    quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    vec3 scale{1.0f};
+};
+
+mat4 to_matrix(const Transform& transform);
+
+/// A place in the tree. A node's parent always has a smaller id, so one pass in id order makes world
+/// transforms.
+struct Node {
+    std::string name;
+    std::optional<NodeId> parent;
+    Transform local;             // parent_from_node, unless `matrix` is set
+    std::optional<mat4> matrix;  // nodes given by a matrix are never animated
+    std::optional<MeshId> mesh;
+    std::optional<SkinId> skin;  // only with a mesh
+    std::optional<LightId> light;
+    std::optional<AreaLightId> area_light;
+    std::optional<CameraId> camera;
+    std::vector<float> morph_weights;       // empty: the mesh's
+    std::vector<Transform> mesh_instances;  // EXT_mesh_gpu_instancing: node_from_instance; empty: once, as is
+};
+
+struct Skin {
+    std::string name;
+    std::vector<NodeId> joints;
+    std::vector<mat4> inverse_bind;  // joint_from_object, as many as joints
+};
+
+struct Camera {
+    std::string name;
+    float vertical_fov = 1.0f;  // radians; looks along -z of its node
+    float aspect_ratio = 0.0f;  // width / height; 0: the picture's own
+};
+
+enum class Interpolation : std::uint8_t { Step, Linear, CubicSpline };
+enum class AnimatedProperty : std::uint8_t { Translation, Rotation, Scale, Weights };
+
+/// Keys of one property of one node (glTF 2.0 section 3.11). `values` holds, for each time, `width` floats
+/// (3, 4 as xyzw, 3, or the number of morph targets), or 3 * width for CubicSpline: in-tangent, value,
+/// out-tangent.
+struct AnimationChannel {
+    NodeId node = 0;
+    AnimatedProperty property = AnimatedProperty::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::uint32_t width = 3;
+    std::vector<float> times;  // seconds, strictly increasing
+    std::vector<float> values;
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationChannel> channels;
+    float duration = 0.0f;  // seconds, the last key; the animation loops; filled by SceneBuilder
+};
+
+}  // namespace foveray::scene

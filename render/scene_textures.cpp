@@ -1,0 +1,118 @@
+#include "render/scene_textures.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+namespace foveray::render {
+namespace {
+
+vk::SamplerAddressMode address_mode(scene::Wrap wrap) {
+    switch (wrap) {
+        case scene::Wrap::Repeat:
+            return vk::SamplerAddressMode::eRepeat;
+        case scene::Wrap::MirroredRepeat:
+            return vk::SamplerAddressMode::eMirroredRepeat;
+        case scene::Wrap::ClampToEdge:
+            return vk::SamplerAddressMode::eClampToEdge;
+    }
+    return vk::SamplerAddressMode::eRepeat;
+}
+
+vk::Filter filter(scene::Filter value) {
+    return value == scene::Filter::Nearest ? vk::Filter::eNearest : vk::Filter::eLinear;
+}
+
+gpu::SamplerInfo sampler_info(const scene::Sampler& sampler) {
+    gpu::SamplerInfo info;
+    info.mag = filter(sampler.mag);
+    info.min = filter(sampler.min);
+    info.use_mips = sampler.mip != scene::MipFilter::None;
+    info.mip = sampler.mip == scene::MipFilter::Linear ? vk::SamplerMipmapMode::eLinear
+                                                       : vk::SamplerMipmapMode::eNearest;
+    info.u = address_mode(sampler.wrap_u);
+    info.v = address_mode(sampler.wrap_v);
+    return info;
+}
+
+std::uint32_t flags(const scene::Material& material) {
+    std::uint32_t flags = 0;
+    if (material.alpha_mode == scene::AlphaMode::Mask) flags |= shared::MATERIAL_ALPHA_MASK;
+    if (material.alpha_mode == scene::AlphaMode::Blend) flags |= shared::MATERIAL_ALPHA_BLEND;
+    if (material.double_sided) flags |= shared::MATERIAL_DOUBLE_SIDED;
+    if (material.unlit) flags |= shared::MATERIAL_UNLIT;
+    return flags;
+}
+
+}  // namespace
+
+SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table, gpu::Uploader& uploader,
+                             const scene::Scene& scene)
+    : device_(device), table_(table) {
+    for (const scene::Material& m : scene.materials) {
+        const auto place = [&](const scene::TextureUse& u, Content content) {
+            return use(uploader, scene, u, content);
+        };
+        shared::Material material{};
+        material.base_color = m.base_color;
+        material.emissive = m.emissive;
+        material.metallic = m.metallic;
+        material.roughness = m.roughness;
+        material.normal_scale = m.normal_scale;
+        material.occlusion_strength = m.occlusion_strength;
+        material.alpha_cutoff = m.alpha_cutoff;
+        material.flags = flags(m);
+        material.base_color_texture = place(m.base_color_texture, Content::Color);
+        material.metallic_roughness_texture = place(m.metallic_roughness_texture, Content::Data);
+        material.normal_texture = place(m.normal_texture, Content::Data);
+        material.occlusion_texture = place(m.occlusion_texture, Content::Data);
+        material.emissive_texture = place(m.emissive_texture, Content::Color);
+        materials_.push_back(material);
+    }
+}
+
+SceneTextures::~SceneTextures() {
+    for (const auto& [key, index] : textures_) table_.remove(index);
+}
+
+const gpu::Image& SceneTextures::image(gpu::Uploader& uploader, const scene::Scene& scene, scene::ImageId id,
+                                       Content content) {
+    const auto it = images_.find({id, content});
+    if (it != images_.end()) return it->second;
+    const scene::TextureImage& source = scene.images[id];
+    gpu::ImageInfo info;
+    info.extent = vk::Extent2D(source.pixels.width, source.pixels.height);
+    info.format = content == Content::Color ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm;
+    info.mip_levels =
+        static_cast<std::uint32_t>(std::bit_width(std::max(info.extent.width, info.extent.height)));
+    info.usage = vk::ImageUsageFlagBits::eSampled;
+    const std::string name = "image " + std::to_string(id) + " " + source.name;
+    return images_
+        .emplace(std::pair(id, content), uploader.image(name, info, gpu::range_bytes(source.pixels.pixels)))
+        .first->second;
+}
+
+std::uint32_t SceneTextures::texture(gpu::Uploader& uploader, const scene::Scene& scene, scene::TextureId id,
+                                     Content content) {
+    const auto it = textures_.find({id, content});
+    if (it != textures_.end()) return it->second;
+    const scene::Texture& source = scene.textures[id];
+    const std::uint32_t index =
+        table_.add(image(uploader, scene, source.image, content).view(), sampler_info(source.sampler));
+    textures_.emplace(std::pair(id, content), index);
+    return index;
+}
+
+shared::TextureUse SceneTextures::use(gpu::Uploader& uploader, const scene::Scene& scene,
+                                      const scene::TextureUse& use, Content content) {
+    shared::TextureUse result{};
+    result.texture = use ? texture(uploader, scene, *use.texture, content) : shared::NO_TEXTURE;
+    result.uv_set = use.uv_set;
+    const mat3 matrix = scene::uv_matrix(use);
+    result.u_axis = vec2(matrix[0]);
+    result.v_axis = vec2(matrix[1]);
+    result.offset = vec2(matrix[2]);
+    return result;
+}
+
+}  // namespace foveray::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "render/gpu/memory.h"
+#include "shaders/shared/view_image.h"
+
+namespace foveray::render {
+
+/// The pictures of a frame, by view as in Frame::views. The buffers belong to the resolve stage.
+struct ViewImages {
+    struct Buffers {
+        const gpu::Buffer* resolved = nullptr;  // shared::ResolvedPixel
+        const gpu::Buffer* color = nullptr;     // for the compositor to fill
+        const gpu::Buffer* depth = nullptr;
+    };
+    std::vector<shared::ViewImage> images;
+    std::vector<Buffers> buffers;  // parallel to images
+};
+
+}  // namespace foveray::render

@@ -1,0 +1,18 @@
+// Shadow rays: what a ray-generation shader calls to find how much light passes between two points.
+#ifndef FOVERAY_RENDER_TRACE_SHADOW_GLSL
+#define FOVERAY_RENDER_TRACE_SHADOW_GLSL
+
+#include "shaders/engine/scene_structure.glsl"
+#include "shaders/shared/ray_types.h"
+
+layout(location = 1) rayPayloadEXT vec3 shadow_payload;
+
+// 1: nothing in between, 0: something opaque. `direction` has unit length. Triangles block light from both sides.
+vec3 trace_shadow(uint mask, vec3 origin, float t_min, vec3 direction, float t_max) {
+    shadow_payload = vec3(1.0);
+    traceRayEXT(scene_structure, gl_RayFlagsTerminateOnFirstHitEXT, mask, RAY_SHADOW, RAY_TYPE_COUNT, RAY_SHADOW,
+                origin, t_min, direction, t_max, 1);
+    return shadow_payload;
+}
+
+#endif

@@ -1,0 +1,31 @@
+// Push constants of the resolve stage: one view.
+#ifndef FOVERAY_SHARED_RESOLVE_H
+#define FOVERAY_SHARED_RESOLVE_H
+
+#include "shaders/shared/portable.h"
+
+FOVERAY_SHARED_BEGIN
+
+FOVERAY_CONST uint RESOLVE_BILINEAR = 0u;
+FOVERAY_CONST uint RESOLVE_BICUBIC = 1u;
+
+FOVERAY_CONST uint RESOLVE_DEBUG_NONE = 0u;
+FOVERAY_CONST uint RESOLVE_DEBUG_TILES = 1u;    // HERR figure 6: 15 degrees of eccentricity and of angle
+FOVERAY_CONST uint RESOLVE_DEBUG_SAMPLES = 2u;  // each sample's cell, every other one darkened
+
+struct ResolvePush {
+    uint64_t grid;      // SampleGrid
+    uint64_t samples;   // LightSample[]
+    uint64_t resolved;  // ResolvedPixel[height][width], written
+    uint view;
+    uint filter_kind;
+    uint debug_view;
+};
+
+FOVERAY_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(foveray::shared::ResolvePush) == 40);
+#endif
+
+#endif

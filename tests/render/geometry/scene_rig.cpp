@@ -1,0 +1,112 @@
+#include "tests/render/geometry/scene_rig.h"
+
+#include <glm/gtc/packing.hpp>
+
+namespace foveray::render {
+
+SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
+    : device_(device),
+      ring_(device, slots),
+      textures_(device),
+      pipeline_(device, textures_, slots),
+      animator_(scene),
+      gpu_scene_(device, textures_, scene, slots),
+      accel_(device, gpu_scene_, pipeline_, slots),
+      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      resolve_(device, textures_),
+      counters_(device, slots) {}
+
+SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_from_stage) {
+    shared::SampleGrid grid{};
+    grid.kind = shared::GRID_PIXELS;
+    grid.view_count = static_cast<std::uint32_t>(views.size());
+    grid.jitter = vec2(0.5f);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        grid.views[i] = view_params(views[i], world_from_stage);
+        grid.views[i].first_sample = grid.sample_count;
+        grid.sample_count += views[i].size.x * views[i].size.y;
+    }
+    ring_.wait();
+    grid_ = gpu::Buffer(device_, "test grid", sizeof grid, gpu::Residence::Upload);
+    grid_.write(gpu::bytes_of(grid));
+    SampleGrid result;
+    result.grids = grid_.address();
+    result.kind = grid.kind;
+    result.sample_count = grid.sample_count;
+    return result;
+}
+
+std::vector<shared::Surface> SceneRig::surfaces(Nanoseconds time, std::span<const View> views,
+                                                const Pose& world_from_stage) {
+    const SampleGrid grid = upload_grid(views, world_from_stage);
+    const vk::DeviceSize size = grid.sample_count * sizeof(shared::Surface);
+    readback_ = gpu::Buffer(device_, "test readback", size, gpu::Residence::Readback);
+    changes_ = &animator_.advance(time);
+
+    const gpu::Commands cmd = ring_.begin();
+    counters_.clear(cmd);
+    const GpuSceneFrame frame = gpu_scene_.record(cmd, ring_.slot(), *changes_, world_from_stage);
+    masks_.clear();
+    for (const GpuInstance& instance : frame.instances) masks_.push_back(instance.mask);
+    accel_.record(cmd, ring_.slot(), frame, pipeline_);
+    const Surfaces hits = primary_.record(cmd, grid, 0, counters_.address());
+    cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::TransferRead);
+    cmd->copyBuffer(hits.buffer->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);
+    counters_.read_back(cmd, ring_.slot());
+    ring_.submit();
+    ring_.wait();
+    readback_.invalidate();
+    const auto mapped = readback_.mapped_as<shared::Surface>();
+    return {mapped.begin(), mapped.begin() + grid.sample_count};
+}
+
+std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Settings& settings) {
+    const SampleGrid grid = upload_grid({&view, 1}, {});
+    const vk::DeviceSize size = grid.sample_count * sizeof(shared::ResolvedPixel);
+    readback_ = gpu::Buffer(device_, "test readback", size, gpu::Residence::Readback);
+    changes_ = &animator_.advance(time);
+
+    const gpu::Commands cmd = ring_.begin();
+    counters_.clear(cmd);
+    const GpuSceneFrame frame = gpu_scene_.record(cmd, ring_.slot(), *changes_, {});
+    accel_.record(cmd, ring_.slot(), frame, pipeline_);
+    const Surfaces hits = primary_.record(cmd, grid, 0, counters_.address());
+    const LightLayers light = lighting_.accumulate(
+        cmd, {grid, hits.surfaces, frame.scene_data, 0, counters_.address(), settings}, 0);
+    const ViewImages images = resolve_.record(cmd, light, grid, {&view, 1}, settings);
+    cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
+    cmd->copyBuffer(images.buffers[0].resolved->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);
+    ring_.submit();
+    ring_.wait();
+    readback_.invalidate();
+    std::vector<vec4> result;
+    for (const shared::ResolvedPixel& pixel :
+         readback_.mapped_as<shared::ResolvedPixel>().first(grid.sample_count)) {
+        result.emplace_back(glm::unpackHalf2x16(pixel.radiance.x), glm::unpackHalf2x16(pixel.radiance.y));
+    }
+    return result;
+}
+
+View view_forward(float half_angle_degrees, uvec2 size) {
+    View view;
+    const float a = radians(half_angle_degrees);
+    view.fov = {-a, a, a, -a};
+    view.size = size;
+    return view;
+}
+
+std::vector<glm::dvec3> directions_of(const View& view) {
+    std::vector<glm::dvec3> result;
+    for (std::uint32_t y = 0; y < view.size.y; ++y) {
+        for (std::uint32_t x = 0; x < view.size.x; ++x) {
+            const vec2 uv = (vec2(x, y) + 0.5f) / vec2(view.size);
+            result.emplace_back(view.stage_from_eye.orientation * direction_at(view.fov, uv));
+        }
+    }
+    return result;
+}
+
+}  // namespace foveray::render

@@ -1,0 +1,144 @@
+#include "tests/render/light/light_rig.h"
+
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+namespace foveray::render {
+namespace {
+
+template <typename T>
+std::vector<T> as(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+vec4 unpack(uvec2 halves) { return {glm::unpackHalf2x16(halves.x), glm::unpackHalf2x16(halves.y)}; }
+
+Pixel unpack(const shared::ResolvedPixel& resolved) {
+    const vec4 radiance = unpack(resolved.radiance), transmittance = unpack(resolved.transmittance);
+    return {
+        vec3(radiance), radiance.w, vec3(transmittance), transmittance.w > 0.0f, vec3(unpack(resolved.added)),
+        resolved.depth};
+}
+
+}  // namespace
+
+LightRig::LightRig(const gpu::Device& device, const scene::Scene& scene)
+    : device_(device),
+      ring_(device, 1),
+      textures_(device),
+      pipeline_(device, textures_, 1),
+      animator_(scene),
+      gpu_scene_(device, textures_, scene, 1),
+      accel_(device, gpu_scene_, pipeline_, 1),
+      sampling_(device, 1, pipeline_.tracer(), pipeline_.fixation()),
+      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      resolve_(device, textures_),
+      counters_(device, 1) {}
+
+std::vector<std::byte> LightRig::read(const gpu::Buffer& source, vk::DeviceSize size) {
+    gpu::Buffer target(device_, "test readback", size, gpu::Residence::Readback);
+    gpu::submit_and_wait(device_, [&](const gpu::Commands& cmd) {
+        cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::TransferRead);
+        cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
+        cmd->copyBuffer(source.vk(), target.vk(), vk::BufferCopy(0, 0, size));
+        cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);
+    });
+    target.invalidate();
+    const auto mapped = target.mapped();
+    return {mapped.begin(), mapped.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+LightLayers LightRig::paint(const Shot& shot, const Rendered& rendered) {
+    std::vector<shared::LightSample> samples(rendered.grid.sample_count);
+    const auto& map = rendered.grid.polar;
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        if (rendered.surfaces[i].kind == shared::SURFACE_CULLED) continue;
+        const auto& gaze = rendered.gaze[i / (map.width * map.height)];
+        const float e =
+            radians(shared::polar_eccentricity(map, (static_cast<float>(i % map.width) + 0.5f) *
+                                                        map.radius_outer / static_cast<float>(map.width)));
+        const float angle = 2.0f * pi * (static_cast<float>(i / map.width % map.height) + 0.5f) /
+                            static_cast<float>(map.height);
+        samples[i] = shot.paint(std::cos(e) * gaze.forward +
+                                    std::sin(e) * (std::cos(angle) * gaze.right + std::sin(angle) * gaze.up),
+                                rendered.surfaces[i].distance);
+    }
+    painted_ = gpu::Buffer(device_, "painted samples", samples.size() * sizeof(shared::LightSample),
+                           gpu::Residence::Upload);
+    painted_.write(gpu::range_bytes(samples));
+    return {painted_.address(), &painted_};
+}
+
+Rendered LightRig::render(const Shot& shot) {
+    Frame frame;
+    frame.display_time = shot.time;
+    frame.views = shot.views;
+    Rendered result;
+    ViewImages images;
+    {
+        const gpu::Commands cmd = ring_.begin();
+        counters_.clear(cmd);
+        const GpuSceneFrame scene = gpu_scene_.record(cmd, 0, animator_.advance(shot.time), {});
+        accel_.record(cmd, 0, scene, pipeline_);
+        result.grid = sampling_.record(
+            cmd, 0, {frame, {}, shot.fovea, shot.hidden, shot.acuity, shot.settings, shot.every_pixel});
+        Surfaces hits;
+        LightLayers light;
+        for (std::uint32_t s = 0; s < result.grid.sub_sample_count; ++s) {
+            hits = primary_.record(cmd, result.grid, s, counters_.address());
+            light = lighting_.accumulate(
+                cmd,
+                {result.grid, hits.surfaces, scene.scene_data, shot.room, counters_.address(), shot.settings},
+                s);
+        }
+        counters_.read_back(cmd, 0);
+        if (!shot.paint) images = resolve_.record(cmd, light, result.grid, shot.views, shot.settings);
+        ring_.submit();
+        ring_.wait();
+        result.gaze = sampling_.gaze_frames(0);
+        result.rays = counters_.counts(0);
+        if (shot.read_samples) {
+            result.surfaces = as<shared::Surface>(read(*hits.buffer, hits.count * sizeof(shared::Surface)));
+            result.light =
+                as<shared::LightSample>(read(*light.buffer, hits.count * sizeof(shared::LightSample)));
+        }
+    }
+    if (shot.paint) {
+        const LightLayers light = paint(shot, result);
+        const gpu::Commands cmd = ring_.begin();
+        images = resolve_.record(cmd, light, result.grid, shot.views, shot.settings);
+        ring_.submit();
+        ring_.wait();
+    }
+    for (std::size_t i = 0; i < shot.views.size(); ++i) {
+        Picture picture{shot.views[i].size, {}};
+        const std::size_t bytes =
+            std::size_t{picture.size.x} * picture.size.y * sizeof(shared::ResolvedPixel);
+        for (const auto& pixel : as<shared::ResolvedPixel>(read(*images.buffers[i].resolved, bytes)))
+            picture.pixels.push_back(unpack(pixel));
+        result.views.push_back(std::move(picture));
+    }
+    return result;
+}
+
+View square_view(float half_angle_degrees, std::uint32_t pixels, Pose stage_from_eye) {
+    const float a = radians(half_angle_degrees);
+    return {Eye::Left, ViewRole::Context, stage_from_eye, {-a, a, a, -a}, {pixels, pixels}};
+}
+
+Pose look_at(vec3 eye, vec3 target) {
+    const vec3 forward = glm::normalize(target - eye);
+    const vec3 up = std::abs(forward.y) > 0.99f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
+    return {glm::quatLookAt(forward, up), eye};
+}
+
+vec3 direction_of(const View& view, std::uint32_t x, std::uint32_t y) {
+    const vec2 uv = (vec2(x, y) + 0.5f) / vec2(view.size);
+    return glm::normalize(view.stage_from_eye.orientation * direction_at(view.fov, uv));
+}
+
+}  // namespace foveray::render

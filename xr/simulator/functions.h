@@ -1,0 +1,91 @@
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+
+#include "xr/simulator/openxr_vulkan.h"
+
+/// Every OpenXR function of the runtime with the extension that brings it ("" for the core). The *_api.cpp
+/// files define them: they verify arguments; what a call does stands in the object's own file.
+#define FOVERAY_SIMULATOR_FUNCTIONS(_)                                         \
+    _(xrGetInstanceProcAddr, "")                                               \
+    _(xrEnumerateApiLayerProperties, "")                                       \
+    _(xrEnumerateInstanceExtensionProperties, "")                              \
+    _(xrCreateInstance, "")                                                    \
+    _(xrDestroyInstance, "")                                                   \
+    _(xrGetInstanceProperties, "")                                             \
+    _(xrPollEvent, "")                                                         \
+    _(xrResultToString, "")                                                    \
+    _(xrStructureTypeToString, "")                                             \
+    _(xrStringToPath, "")                                                      \
+    _(xrPathToString, "")                                                      \
+    _(xrGetSystem, "")                                                         \
+    _(xrGetSystemProperties, "")                                               \
+    _(xrEnumerateEnvironmentBlendModes, "")                                    \
+    _(xrEnumerateViewConfigurations, "")                                       \
+    _(xrGetViewConfigurationProperties, "")                                    \
+    _(xrEnumerateViewConfigurationViews, "")                                   \
+    _(xrCreateSession, "")                                                     \
+    _(xrDestroySession, "")                                                    \
+    _(xrBeginSession, "")                                                      \
+    _(xrEndSession, "")                                                        \
+    _(xrRequestExitSession, "")                                                \
+    _(xrWaitFrame, "")                                                         \
+    _(xrBeginFrame, "")                                                        \
+    _(xrEndFrame, "")                                                          \
+    _(xrLocateViews, "")                                                       \
+    _(xrEnumerateReferenceSpaces, "")                                          \
+    _(xrCreateReferenceSpace, "")                                              \
+    _(xrGetReferenceSpaceBoundsRect, "")                                       \
+    _(xrCreateActionSpace, "")                                                 \
+    _(xrLocateSpace, "")                                                       \
+    _(xrDestroySpace, "")                                                      \
+    _(xrEnumerateSwapchainFormats, "")                                         \
+    _(xrCreateSwapchain, "")                                                   \
+    _(xrDestroySwapchain, "")                                                  \
+    _(xrEnumerateSwapchainImages, "")                                          \
+    _(xrAcquireSwapchainImage, "")                                             \
+    _(xrWaitSwapchainImage, "")                                                \
+    _(xrReleaseSwapchainImage, "")                                             \
+    _(xrCreateActionSet, "")                                                   \
+    _(xrDestroyActionSet, "")                                                  \
+    _(xrCreateAction, "")                                                      \
+    _(xrDestroyAction, "")                                                     \
+    _(xrSuggestInteractionProfileBindings, "")                                 \
+    _(xrAttachSessionActionSets, "")                                           \
+    _(xrGetCurrentInteractionProfile, "")                                      \
+    _(xrGetActionStateBoolean, "")                                             \
+    _(xrGetActionStateFloat, "")                                               \
+    _(xrGetActionStateVector2f, "")                                            \
+    _(xrGetActionStatePose, "")                                                \
+    _(xrSyncActions, "")                                                       \
+    _(xrEnumerateBoundSourcesForAction, "")                                    \
+    _(xrGetInputSourceLocalizedName, "")                                       \
+    _(xrApplyHapticFeedback, "")                                               \
+    _(xrStopHapticFeedback, "")                                                \
+    _(xrGetVisibilityMaskKHR, XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)           \
+    _(xrGetVulkanInstanceExtensionsKHR, XR_KHR_VULKAN_ENABLE_EXTENSION_NAME)   \
+    _(xrGetVulkanDeviceExtensionsKHR, XR_KHR_VULKAN_ENABLE_EXTENSION_NAME)     \
+    _(xrGetVulkanGraphicsDeviceKHR, XR_KHR_VULKAN_ENABLE_EXTENSION_NAME)       \
+    _(xrGetVulkanGraphicsRequirementsKHR, XR_KHR_VULKAN_ENABLE_EXTENSION_NAME) \
+    _(xrCreateVulkanInstanceKHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME)         \
+    _(xrCreateVulkanDeviceKHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME)           \
+    _(xrGetVulkanGraphicsDevice2KHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME)     \
+    _(xrGetVulkanGraphicsRequirements2KHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME)
+
+namespace foveray::simulator {
+
+#define FOVERAY_DECLARE(name, extension) std::remove_pointer_t<PFN_##name> name;
+FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_DECLARE)
+#undef FOVERAY_DECLARE
+
+struct FunctionEntry {
+    std::string_view name;
+    PFN_xrVoidFunction function;
+    std::string_view extension;
+};
+
+/// nullptr when there is none of that name.
+const FunctionEntry* find_function(std::string_view name);
+
+}  // namespace foveray::simulator

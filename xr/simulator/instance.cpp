@@ -1,0 +1,140 @@
+#include "xr/simulator/instance.h"
+
+#include <utility>
+
+#include "xr/simulator/openxr_vulkan.h"
+#include "xr/simulator/optics.h"
+#include "xr/simulator/vulkan_device.h"
+
+namespace foveray::simulator {
+namespace {
+
+Script make_script(const Options& options) {
+    if (options.session.empty()) {
+        return Script(read_headset_profile(options.profile.empty() ? "ci" : options.profile));
+    }
+    foveray::Session session = read_session(options.session);
+    HeadsetProfile profile =
+        read_headset_profile(options.profile.empty() ? session.headset : options.profile);
+    return Script(std::move(profile), std::move(session));
+}
+
+}  // namespace
+
+std::span<const Extension> supported_extensions() {
+    static constexpr Extension extensions[] = {
+        {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, XR_KHR_vulkan_enable2_SPEC_VERSION},
+        {XR_KHR_VULKAN_ENABLE_EXTENSION_NAME, XR_KHR_vulkan_enable_SPEC_VERSION},
+        {XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_KHR_composition_layer_depth_SPEC_VERSION},
+        {XR_KHR_VISIBILITY_MASK_EXTENSION_NAME, XR_KHR_visibility_mask_SPEC_VERSION},
+        {XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME, XR_EXT_eye_gaze_interaction_SPEC_VERSION},
+        {XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_quad_views_SPEC_VERSION},
+        {XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME, XR_VARJO_foveated_rendering_SPEC_VERSION},
+    };
+    return extensions;
+}
+
+Instance::Instance(std::set<std::string, std::less<>> extensions)
+    : extensions_(std::move(extensions)),
+      options_(read_options()),
+      script_(make_script(options_)),
+      clock_(options_.time, script_.rate_hz()) {}
+
+std::vector<XrViewConfigurationType> Instance::view_configurations() const {
+    std::vector<XrViewConfigurationType> types;
+    if (has(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME) && profile().views.size() == 4) {
+        types.push_back(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO);
+    }
+    types.push_back(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
+    return types;
+}
+
+bool Instance::supports(XrViewConfigurationType type) const {
+    const auto types = view_configurations();
+    return std::ranges::find(types, type) != types.end();
+}
+
+std::vector<XrEnvironmentBlendMode> Instance::blend_modes() const {
+    std::vector<XrEnvironmentBlendMode> modes;
+    for (const BlendMode mode : profile().blend_modes) {
+        switch (mode) {
+            case BlendMode::Opaque:
+                modes.push_back(XR_ENVIRONMENT_BLEND_MODE_OPAQUE);
+                break;
+            case BlendMode::Additive:
+                modes.push_back(XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
+                break;
+            case BlendMode::AlphaBlend:
+                modes.push_back(XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
+                break;
+        }
+    }
+    return modes;
+}
+
+bool Instance::pop_event(XrEventDataBuffer& event) {
+    const std::lock_guard lock(events_mutex_);
+    if (events_.empty()) return false;
+    event = events_.front();
+    events_.pop_front();
+    return true;
+}
+
+void Instance::remember_vulkan(VkInstance instance, VulkanLoader loader) {
+    const std::lock_guard lock(mutex_);
+    vulkan_[instance] = loader;
+}
+
+VulkanLoader Instance::vulkan_loader(VkInstance instance) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = vulkan_.find(instance); found != vulkan_.end()) return found->second;
+    }
+    return {system_vulkan(), false};
+}
+
+VkPhysicalDevice Instance::gpu(VkInstance instance) {
+    const VkPhysicalDevice device =
+        choose_gpu(instance, VulkanInstanceFunctions(instance, vulkan_loader(instance).get), options_.gpu);
+    const std::lock_guard lock(mutex_);
+    gpus_[device] = instance;
+    return device;
+}
+
+VkInstance Instance::vulkan_instance_of(VkPhysicalDevice device) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = gpus_.find(device);
+    return found != gpus_.end() ? found->second : VK_NULL_HANDLE;
+}
+
+void Instance::suggest(const std::string& interaction_profile, std::vector<SuggestedBinding> bindings) {
+    const std::lock_guard lock(mutex_);
+    suggestions_[interaction_profile] = std::move(bindings);
+}
+
+std::map<std::string, std::vector<SuggestedBinding>> Instance::suggestions() const {
+    const std::lock_guard lock(mutex_);
+    return suggestions_;
+}
+
+bool Instance::claim_name(const std::string& name, bool localized) {
+    const std::lock_guard lock(mutex_);
+    return names_.emplace(localized, name).second;
+}
+
+void Instance::release_name(const std::string& name, bool localized) {
+    const std::lock_guard lock(mutex_);
+    names_.erase({localized, name});
+}
+
+bool Instance::claim_session() {
+    const std::lock_guard lock(mutex_);
+    return !std::exchange(has_session_, true);
+}
+
+void Instance::release_session() {
+    const std::lock_guard lock(mutex_);
+    has_session_ = false;
+}
+
+}  // namespace foveray::simulator

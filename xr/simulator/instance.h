@@ -1,0 +1,112 @@
+#pragma once
+
+#include <atomic>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <openxr/openxr.h>
+#include <vulkan/vulkan.h>
+
+#include "xr/simulator/frame_clock.h"
+#include "xr/simulator/handles.h"
+#include "xr/simulator/options.h"
+#include "xr/simulator/paths.h"
+#include "xr/simulator/script.h"
+#include "xr/simulator/vulkan_device.h"
+
+namespace foveray::simulator {
+
+class Action;
+
+struct Extension {
+    std::string_view name;
+    std::uint32_t version;
+};
+/// All that the runtime offers.
+std::span<const Extension> supported_extensions();
+
+/// OpenXR 1.0 with the patch number of the headers.
+constexpr XrVersion supported_api_version = XR_MAKE_VERSION(1, 0, XR_VERSION_PATCH(XR_CURRENT_API_VERSION));
+
+struct SuggestedBinding {
+    std::shared_ptr<Action> action;
+    XrPath path;
+};
+
+/// A client's connection to one simulated headset. Its environment variables are read when it is made.
+class Instance : public Object {
+  public:
+    using Handle = XrInstance;
+    static constexpr XrObjectType object_type = XR_OBJECT_TYPE_INSTANCE;
+    static constexpr XrSystemId system_id = 1;
+
+    /// Throws Fault when the variables, the profile or the session are at fault.
+    explicit Instance(std::set<std::string, std::less<>> extensions);
+
+    bool has(std::string_view extension) const { return extensions_.contains(extension); }
+    const Options& options() const { return options_; }
+    const Script& script() const { return script_; }
+    const HeadsetProfile& profile() const { return script_.profile(); }
+    FrameClock& clock() { return clock_; }
+    PathTable& paths() { return paths_; }
+
+    std::vector<XrViewConfigurationType> view_configurations() const;
+    std::vector<XrEnvironmentBlendMode> blend_modes() const;
+    bool supports(XrViewConfigurationType type) const;
+
+    /// `event` is one of the XrEventData structures.
+    template <typename Event>
+    void push_event(const Event& event) {
+        static_assert(sizeof(Event) <= sizeof(XrEventDataBuffer));
+        const std::lock_guard lock(events_mutex_);
+        std::memcpy(&events_.emplace_back(), &event, sizeof event);
+    }
+    bool pop_event(XrEventDataBuffer& event);
+
+    /// The client made that Vulkan instance through the runtime.
+    void remember_vulkan(VkInstance instance, VulkanLoader loader);
+    VulkanLoader vulkan_loader(VkInstance instance) const;
+    void graphics_requirements_asked() { graphics_requirements_asked_ = true; }
+    bool were_graphics_requirements_asked() const { return graphics_requirements_asked_; }
+    VkPhysicalDevice gpu(VkInstance instance);
+    /// VK_NULL_HANDLE when `gpu` never gave that device.
+    VkInstance vulkan_instance_of(VkPhysicalDevice device) const;
+
+    /// By interaction profile path. Later suggestions for a profile replace earlier ones.
+    void suggest(const std::string& interaction_profile, std::vector<SuggestedBinding> bindings);
+    std::map<std::string, std::vector<SuggestedBinding>> suggestions() const;
+    /// Names of living action sets: an atom of the API, unlike their handles.
+    bool claim_name(const std::string& name, bool localized);
+    void release_name(const std::string& name, bool localized);
+
+    /// One session at a time.
+    bool claim_session();
+    void release_session();
+
+  private:
+    std::set<std::string, std::less<>> extensions_;
+    Options options_;
+    Script script_;
+    FrameClock clock_;
+    PathTable paths_;
+
+    std::mutex events_mutex_;
+    std::deque<XrEventDataBuffer> events_;
+
+    std::atomic<bool> graphics_requirements_asked_ = false;
+    mutable std::mutex mutex_;  // what follows
+    std::map<VkInstance, VulkanLoader> vulkan_;
+    std::map<VkPhysicalDevice, VkInstance> gpus_;
+    std::map<std::string, std::vector<SuggestedBinding>> suggestions_;
+    std::set<std::pair<bool, std::string>> names_;
+    bool has_session_ = false;
+};
+
+}  // namespace foveray::simulator

@@ -1,0 +1,59 @@
+#include "xr/simulator/options.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace foveray::simulator {
+namespace {
+
+std::string variable(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+template <typename Number>
+bool parse(std::string_view text, Number& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
+void read_frames(const std::string& text, Options& options) {
+    const std::size_t colon = text.find(':');
+    if (colon != std::string::npos &&
+        parse(std::string_view(text).substr(0, colon), options.first_captured_frame) &&
+        parse(std::string_view(text).substr(colon + 1), options.end_captured_frame) &&
+        options.first_captured_frame <= options.end_captured_frame) {
+        return;
+    }
+    throw_bad_input("FOVERAY_SIMULATOR_CAPTURE_FRAMES=" + text, "is no range of frames",
+                    "write A:B for the frames from A up to B, B left out");
+}
+
+}  // namespace
+
+Options read_options() {
+    Options options;
+    options.profile = variable("FOVERAY_SIMULATOR_PROFILE");
+    options.session = variable("FOVERAY_SIMULATOR_SESSION");
+    options.capture = variable("FOVERAY_SIMULATOR_CAPTURE");
+    if (const std::string time = variable("FOVERAY_SIMULATOR_TIME"); time == "virtual") {
+        options.time = TimeMode::Virtual;
+    } else if (!time.empty() && time != "real") {
+        throw_bad_input("FOVERAY_SIMULATOR_TIME=" + time, "is no kind of time", "use virtual or real");
+    }
+    if (const std::string frames = variable("FOVERAY_SIMULATOR_CAPTURE_FRAMES"); !frames.empty()) {
+        read_frames(frames, options);
+    }
+    if (const std::string gpu = variable("FOVERAY_SIMULATOR_GPU"); !gpu.empty()) {
+        if (!parse(gpu, options.gpu.emplace())) {
+            throw_bad_input("FOVERAY_SIMULATOR_GPU=" + gpu, "is no number",
+                            "give the device's place in Vulkan's list, counted from 0");
+        }
+    }
+    return options;
+}
+
+}  // namespace foveray::simulator

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace foveray::simulator {
+
+enum class TimeMode { Virtual, Real };
+
+/// What the FOVERAY_SIMULATOR_* variables say; docs/simulator.md lists them.
+struct Options {
+    std::string profile;  // empty: the session's headset, or "ci"
+    std::filesystem::path session;
+    TimeMode time = TimeMode::Real;
+    std::filesystem::path capture;
+    std::uint64_t first_captured_frame = 0;
+    std::uint64_t end_captured_frame = UINT64_MAX;
+    std::optional<std::uint32_t> gpu;
+
+    bool captures(std::uint64_t frame) const {
+        return !capture.empty() && frame >= first_captured_frame && frame < end_captured_frame;
+    }
+};
+
+/// Throws Fault(BadInput) naming the variable.
+Options read_options();
+
+}  // namespace foveray::simulator

@@ -1,0 +1,126 @@
+#include "xr/simulator/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "xr/simulator/verify.h"
+
+namespace foveray::simulator {
+
+std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
+    static constexpr std::pair<std::string_view, EventKind> names[] = {
+        {"exit", EventKind::Exit},
+        {"focus_lost", EventKind::FocusLost},
+        {"focus_gained", EventKind::FocusGained},
+        {"visibility_lost", EventKind::VisibilityLost},
+        {"visibility_gained", EventKind::VisibilityGained},
+        {"head_tracking_lost", EventKind::HeadLost},
+        {"head_tracking_gained", EventKind::HeadGained},
+        {"recenter", EventKind::Recentre},
+    };
+    for (const auto& [known, kind] : names) {
+        if (known == name) return kind;
+    }
+    return std::nullopt;
+}
+
+Script::Script(HeadsetProfile profile) : profile_(std::move(profile)) {}
+
+Script::Script(HeadsetProfile profile, foveray::Session session)
+    : profile_(std::move(profile)), session_(std::move(session)), has_session_(true) {
+    std::set<std::string> unknown;
+    for (const foveray::Session::Event& event : session_.events) {
+        if (const auto kind = event_kind(event.name)) {
+            events_.push_back({event.time, *kind});
+        } else if (unknown.insert(event.name).second) {
+            report((session_.folder / "events.csv").string() + ": event '" + event.name +
+                   "' is left to the client; docs/simulator.md lists those that the headset plays");
+        }
+    }
+}
+
+double Script::rate_hz() const { return has_session_ ? session_.rate_hz : profile_.rate_hz; }
+
+bool Script::ended(std::uint64_t frame_index) const { return has_session_ && frame_index >= session_.frames; }
+
+Script::Head Script::head_at(Nanoseconds time) const {
+    Head head{session_.head_at(time), true};
+    for (const Event& event : events_) {
+        if (event.time > time) break;
+        if (event.kind == EventKind::HeadLost) head.tracked = false;
+        if (event.kind == EventKind::HeadGained) head.tracked = true;
+    }
+    return head;
+}
+
+GazeSample Script::gaze_at(Nanoseconds time) const {
+    GazeSample gaze;
+    if (!profile_.eye_tracking) return gaze;
+    if (!session_.gaze.empty()) return session_.gaze_at(time);
+    gaze.time = time;
+    gaze.valid = true;
+    return gaze;
+}
+
+std::optional<GazeSample> Script::rendering_gaze_at(Nanoseconds time) const {
+    const auto& samples = session_.gaze;
+    if (!profile_.eye_tracking) return std::nullopt;
+    if (samples.empty()) return gaze_at(time);
+    const auto end = std::upper_bound(samples.begin(), samples.end(), time,
+                                      [](Nanoseconds t, const GazeSample& s) { return t < s.time; });
+    const auto found = std::find_if(std::make_reverse_iterator(end), samples.rend(),
+                                    [](const GazeSample& s) { return s.valid; });
+    if (found == samples.rend()) return std::nullopt;
+    return *found;
+}
+
+ControllerState Script::controller_at(int hand, Nanoseconds time) const {
+    return session_.controller_at(hand, time);
+}
+
+Script::Presence Script::presence_at(Nanoseconds time) const {
+    bool focused = true, visible = true;
+    for (const Event& event : events_) {
+        if (event.time > time) break;
+        if (event.kind == EventKind::FocusLost) focused = false;
+        if (event.kind == EventKind::FocusGained) focused = true;
+        if (event.kind == EventKind::VisibilityLost) visible = false;
+        if (event.kind == EventKind::VisibilityGained) visible = true;
+    }
+    if (!visible) return Presence::Hidden;
+    return focused ? Presence::Focused : Presence::Visible;
+}
+
+bool Script::exit_asked_at(Nanoseconds time) const {
+    return std::ranges::any_of(
+        events_, [&](const Event& event) { return event.time <= time && event.kind == EventKind::Exit; });
+}
+
+Pose Script::upright_head_at(Nanoseconds time) const {
+    const Pose head = session_.head_at(time);
+    const vec3 forward = head.orientation * vec3(0.0f, 0.0f, -1.0f);
+    Pose upright{quat(1.0f, 0.0f, 0.0f, 0.0f), head.position};
+    if (std::hypot(forward.x, forward.z) > 1e-3f) {
+        upright.orientation = glm::angleAxis(std::atan2(-forward.x, -forward.z), vec3(0.0f, 1.0f, 0.0f));
+    }
+    return upright;
+}
+
+Pose Script::stage_from_local_at(Nanoseconds time) const {
+    const auto recentred = recentrings(-1, time);
+    return upright_head_at(recentred.empty() ? 0 : recentred.back());
+}
+
+std::vector<Nanoseconds> Script::recentrings(Nanoseconds after, Nanoseconds until) const {
+    std::vector<Nanoseconds> times;
+    for (const Event& event : events_) {
+        if (event.kind == EventKind::Recentre && event.time > after && event.time <= until) {
+            times.push_back(event.time);
+        }
+    }
+    return times;
+}
+
+}  // namespace foveray::simulator

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/headset_profile.h"
+#include "base/session.h"
+
+namespace foveray::simulator {
+
+/// What happens to the simulated headset, as pure functions of session time: poses, gaze, controllers and
+/// events. Without a session, or for a stream that it lacks, the head stands still at 1.6 m and looks
+/// straight ahead.
+class Script {
+  public:
+    enum class Presence { Focused, Visible, Hidden };
+
+    struct Head {
+        Pose stage_from_head;
+        bool tracked = true;
+    };
+
+    explicit Script(HeadsetProfile profile);
+    /// Events that the simulator does not know stay the client's; they are reported once.
+    Script(HeadsetProfile profile, foveray::Session session);
+
+    const HeadsetProfile& profile() const { return profile_; }
+    /// Frames a second: the session's, or else the profile's.
+    double rate_hz() const;
+    /// The session has no frame of that index.
+    bool ended(std::uint64_t frame_index) const;
+
+    Head head_at(Nanoseconds time) const;
+    /// In the head's frame; the newest measurement at or before `time`.
+    GazeSample gaze_at(Nanoseconds time) const;
+    /// Where gaze-contingent views look: the last valid gaze, held through blinks; nothing before any.
+    std::optional<GazeSample> rendering_gaze_at(Nanoseconds time) const;
+    ControllerState controller_at(int hand, Nanoseconds time) const;
+
+    Presence presence_at(Nanoseconds time) const;
+    bool exit_asked_at(Nanoseconds time) const;
+    /// The local space: upright, at the head's place when the session began or was last recentred.
+    Pose stage_from_local_at(Nanoseconds time) const;
+    /// Times of recentring in (after, until].
+    std::vector<Nanoseconds> recentrings(Nanoseconds after, Nanoseconds until) const;
+
+  private:
+    enum class EventKind {
+        Exit,
+        FocusLost,
+        FocusGained,
+        VisibilityLost,
+        VisibilityGained,
+        HeadLost,
+        HeadGained,
+        Recentre
+    };
+    struct Event {
+        Nanoseconds time;
+        EventKind kind;
+    };
+    static std::optional<EventKind> event_kind(std::string_view name);
+    Pose upright_head_at(Nanoseconds time) const;
+
+    HeadsetProfile profile_;
+    foveray::Session session_;
+    bool has_session_ = false;
+    std::vector<Event> events_;  // by time
+};
+
+}  // namespace foveray::simulator

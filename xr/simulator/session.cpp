@@ -1,0 +1,136 @@
+#include "xr/simulator/session.h"
+
+#include <utility>
+
+#include "xr/simulator/convert.h"
+#include "xr/simulator/layers.h"
+#include "xr/simulator/optics.h"
+
+namespace foveray::simulator {
+
+Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device)
+    : instance_(std::move(instance)),
+      device_(std::move(device)),
+      inputs_(*instance_),
+      capture_(instance_->options(), instance_->profile(), *device_),
+      lifecycle_([this](XrSessionState state) { announce(state); }) {
+    verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
+}
+
+void Session::on_destroy() {
+    const std::lock_guard lock(mutex_);
+    destroyed_ = true;
+    instance_->release_session();
+    frame_taken_.notify_all();
+}
+
+void Session::start() {
+    const std::lock_guard lock(mutex_);
+    lifecycle_.start();
+}
+
+bool Session::running() const {
+    const std::lock_guard lock(mutex_);
+    return lifecycle_.running();
+}
+
+bool Session::focused() const {
+    const std::lock_guard lock(mutex_);
+    return lifecycle_.focused();
+}
+
+std::uint32_t Session::view_count() const { return view_count_; }
+
+void Session::announce(XrSessionState state) {
+    instance_->push_event(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
+                                                         handle_of(*this), state, instance_->clock().now()});
+}
+
+void Session::begin(XrViewConfigurationType configuration) {
+    const std::lock_guard lock(mutex_);
+    lifecycle_.begin();
+    view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
+    waited_.reset();
+    begun_.reset();
+}
+
+void Session::end() {
+    const std::lock_guard lock(mutex_);
+    lifecycle_.end();
+    frame_taken_.notify_all();
+}
+
+void Session::request_exit() {
+    const std::lock_guard lock(mutex_);
+    lifecycle_.ask_to_stop();
+}
+
+void Session::play_script(const FrameTime& frame) {
+    const Script& script = instance_->script();
+    const Nanoseconds time = instance_->clock().session_time(frame.display_time);
+    for (const Nanoseconds recentred : script.recentrings(played_until_, time)) {
+        const Pose previous = script.stage_from_local_at(recentred - 1);
+        const Pose next = script.stage_from_local_at(recentred);
+        instance_->push_event(XrEventDataReferenceSpaceChangePending{
+            XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this),
+            XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
+            to_xr(inverse(previous) * next)});
+    }
+    played_until_ = time;
+    if (script.ended(frame.index) || script.exit_asked_at(time)) {
+        lifecycle_.ask_to_stop();
+    } else {
+        lifecycle_.show(script.presence_at(time));
+    }
+}
+
+Session::WaitedFrame Session::wait_frame() {
+    std::unique_lock lock(mutex_);
+    const auto verify_running = [&] {
+        verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
+        verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
+    };
+    verify_running();
+    frame_taken_.wait(lock, [&] { return destroyed_ || !lifecycle_.running() || (!waiting_ && !waited_); });
+    verify_running();
+
+    waiting_ = true;
+    lock.unlock();
+    const FrameTime frame = instance_->clock().next_frame();
+    lock.lock();
+    waiting_ = false;
+    frame_taken_.notify_all();
+    verify_running();
+    waited_ = frame;
+    play_script(frame);
+    return {frame, lifecycle_.visible()};
+}
+
+XrResult Session::begin_frame() {
+    const std::lock_guard lock(mutex_);
+    verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
+    verify(waited_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
+    const bool discarded = begun_.has_value();
+    begun_ = std::exchange(waited_, std::nullopt);
+    frame_taken_.notify_all();
+    return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
+}
+
+void Session::end_frame(const XrFrameEndInfo& info) {
+    std::unique_lock lock(mutex_);
+    verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
+    verify(begun_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
+    const FrameTime frame = *begun_;
+    lock.unlock();
+
+    const std::vector<ProjectionLayer> layers = read_layers(*this, info);
+    const Script& script = instance_->script();
+    if (capture_.wants(frame.index) && !script.ended(frame.index)) capture_.write(frame.index, layers);
+
+    lock.lock();
+    begun_.reset();
+    // The last frame of the script is on display: stop before the client waits for another.
+    if (script.ended(frame.index + 1) && lifecycle_.running()) lifecycle_.ask_to_stop();
+}
+
+}  // namespace foveray::simulator

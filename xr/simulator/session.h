@@ -1,0 +1,72 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include <openxr/openxr.h>
+
+#include "xr/simulator/capture.h"
+#include "xr/simulator/handles.h"
+#include "xr/simulator/inputs.h"
+#include "xr/simulator/instance.h"
+#include "xr/simulator/lifecycle.h"
+#include "xr/simulator/vulkan_device.h"
+
+namespace foveray::simulator {
+
+class Session : public Object {
+  public:
+    using Handle = XrSession;
+    static constexpr XrObjectType object_type = XR_OBJECT_TYPE_SESSION;
+
+    /// Refuses with XR_ERROR_LIMIT_REACHED while the instance has another.
+    Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device);
+    void on_destroy() override;
+    /// Announces IDLE and READY; once, after the handle exists.
+    void start();
+
+    Instance& instance() const { return *instance_; }
+    VulkanDevice& device() const { return *device_; }
+    Inputs& inputs() { return inputs_; }
+    const Inputs& inputs() const { return inputs_; }
+    bool running() const;
+    bool focused() const;
+    /// Views of the configuration that the session was begun with.
+    std::uint32_t view_count() const;
+
+    void begin(XrViewConfigurationType configuration);
+    void end();
+    void request_exit();
+
+    struct WaitedFrame {
+        FrameTime time;
+        bool should_render = false;
+    };
+    /// Blocks until the frame before was begun. Plays the script up to the new frame.
+    WaitedFrame wait_frame();
+    /// XR_SUCCESS, or XR_FRAME_DISCARDED when a begun frame was not ended.
+    XrResult begin_frame();
+    void end_frame(const XrFrameEndInfo& info);
+
+  private:
+    void announce(XrSessionState state);
+    void play_script(const FrameTime& frame);
+
+    std::shared_ptr<Instance> instance_;
+    std::unique_ptr<VulkanDevice> device_;
+    Inputs inputs_;
+    Capture capture_;
+
+    mutable std::mutex mutex_;  // what follows
+    std::condition_variable frame_taken_;
+    Lifecycle lifecycle_;
+    std::uint32_t view_count_ = 0;
+    bool destroyed_ = false, waiting_ = false;
+    std::optional<FrameTime> waited_, begun_;
+    Nanoseconds played_until_ = -1;  // session time
+};
+
+}  // namespace foveray::simulator

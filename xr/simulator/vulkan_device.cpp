@@ -1,0 +1,197 @@
+#include "xr/simulator/vulkan_device.h"
+
+#include <dlfcn.h>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "xr/simulator/verify.h"
+
+namespace foveray::simulator {
+
+void verify_vulkan(VkResult result, const char* call) {
+    if (result == VK_SUCCESS) return;
+    report(std::string(call) + " failed with VkResult " + std::to_string(result));
+    const bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    throw Refusal{memory ? XR_ERROR_OUT_OF_MEMORY : XR_ERROR_RUNTIME_FAILURE};
+}
+
+VulkanInstanceFunctions::VulkanInstanceFunctions(VkInstance instance, PFN_vkGetInstanceProcAddr get) {
+#define FOVERAY_LOAD(name)                                     \
+    name = reinterpret_cast<PFN_##name>(get(instance, #name)); \
+    verify(name != nullptr, XR_ERROR_RUNTIME_FAILURE);
+    FOVERAY_LOAD(vkEnumeratePhysicalDevices)
+    FOVERAY_LOAD(vkGetPhysicalDeviceProperties)
+    FOVERAY_LOAD(vkGetPhysicalDeviceMemoryProperties)
+    FOVERAY_LOAD(vkGetPhysicalDeviceImageFormatProperties)
+    FOVERAY_LOAD(vkGetDeviceProcAddr)
+#undef FOVERAY_LOAD
+}
+
+PFN_vkGetInstanceProcAddr system_vulkan() {
+    // Never closed: the client uses the same library.
+    static void* const library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+    auto* get = library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"))
+                        : nullptr;
+    if (!get) throw_missing("libvulkan.so.1", "the Vulkan loader was not found", "install libvulkan1");
+    return get;
+}
+
+VkPhysicalDevice choose_gpu(VkInstance instance, const VulkanInstanceFunctions& functions,
+                            std::optional<std::uint32_t> index) {
+    std::uint32_t count = 0;
+    verify_vulkan(functions.vkEnumeratePhysicalDevices(instance, &count, nullptr),
+                  "vkEnumeratePhysicalDevices");
+    std::vector<VkPhysicalDevice> devices(count);
+    verify_vulkan(functions.vkEnumeratePhysicalDevices(instance, &count, devices.data()),
+                  "vkEnumeratePhysicalDevices");
+    if (index) {
+        if (*index < devices.size()) return devices[*index];
+        throw_bad_input("FOVERAY_SIMULATOR_GPU=" + std::to_string(*index),
+                        "there are " + std::to_string(devices.size()) + " Vulkan devices",
+                        "count them from 0");
+    }
+    for (const auto type :
+         {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
+          VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, VK_PHYSICAL_DEVICE_TYPE_CPU, VK_PHYSICAL_DEVICE_TYPE_OTHER}) {
+        for (const VkPhysicalDevice device : devices) {
+            VkPhysicalDeviceProperties properties{};
+            functions.vkGetPhysicalDeviceProperties(device, &properties);
+            if (properties.deviceType == type) return device;
+        }
+    }
+    throw_missing("Vulkan", "there is no device", "install mesa-vulkan-drivers");
+}
+
+VulkanDevice::VulkanDevice(VkInstance instance, VkPhysicalDevice physical, VkDevice device,
+                           std::uint32_t queue_family, std::uint32_t queue_index, VulkanLoader loader)
+    : instance_functions_(instance, loader.get), physical_(physical), device_(device) {
+    const auto load = [&](const char* name) { return instance_functions_.vkGetDeviceProcAddr(device, name); };
+#define FOVERAY_LOAD(name)                                       \
+    functions_.name = reinterpret_cast<PFN_##name>(load(#name)); \
+    verify(functions_.name != nullptr, XR_ERROR_GRAPHICS_DEVICE_INVALID);
+    FOVERAY_SIMULATOR_VULKAN_FUNCTIONS(FOVERAY_LOAD)
+#undef FOVERAY_LOAD
+    if (loader.has_debug_utils) {
+        functions_.vkSetDebugUtilsObjectNameEXT =
+            reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
+    }
+    instance_functions_.vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+    functions_.vkGetDeviceQueue(device, queue_family, queue_index, &queue_);
+    verify(queue_ != VK_NULL_HANDLE, XR_ERROR_GRAPHICS_DEVICE_INVALID);
+
+    const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateCommandPool(device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
+    pool_ = {device, pool, functions_.vkDestroyCommandPool};
+    set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool, "simulator command pool");
+
+    const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
+                                                    pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    verify_vulkan(functions_.vkAllocateCommandBuffers(device, &allocate_info, &commands_),
+                  "vkAllocateCommandBuffers");
+    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "simulator commands");
+
+    const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+    VkFence fence = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateFence(device, &fence_info, nullptr, &fence), "vkCreateFence");
+    fence_ = {device, fence, functions_.vkDestroyFence};
+    set_name(VK_OBJECT_TYPE_FENCE, fence, "simulator fence");
+}
+
+template <typename Handle>
+void VulkanDevice::set_name(VkObjectType type, Handle handle, const std::string& name) const {
+    if (!functions_.vkSetDebugUtilsObjectNameEXT) return;
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr,
+                                             type, reinterpret_cast<std::uint64_t>(handle), name.c_str()};
+    functions_.vkSetDebugUtilsObjectNameEXT(device_, &info);
+}
+
+bool VulkanDevice::supports(const VkImageCreateInfo& info) const {
+    VkImageFormatProperties limits{};
+    return instance_functions_.vkGetPhysicalDeviceImageFormatProperties(
+               physical_, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits) ==
+               VK_SUCCESS &&
+           info.extent.width <= limits.maxExtent.width && info.extent.height <= limits.maxExtent.height &&
+           info.arrayLayers <= limits.maxArrayLayers && info.mipLevels <= limits.maxMipLevels &&
+           (info.samples & limits.sampleCounts);
+}
+
+VulkanOwned<VkDeviceMemory> VulkanDevice::allocate(const VkMemoryRequirements& needs,
+                                                   VkMemoryPropertyFlags wanted,
+                                                   VkMemoryPropertyFlags preferred,
+                                                   const std::string& name) const {
+    for (const VkMemoryPropertyFlags flags : {wanted | preferred, wanted}) {
+        for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+            if (!(needs.memoryTypeBits & (1u << type))) continue;
+            if ((memory_.memoryTypes[type].propertyFlags & flags) != flags) continue;
+            const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+                                            type};
+            VkDeviceMemory memory = VK_NULL_HANDLE;
+            verify_vulkan(functions_.vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
+            set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name + " memory");
+            return {device_, memory, functions_.vkFreeMemory};
+        }
+    }
+    report("no Vulkan memory type fits " + name);
+    throw Refusal{XR_ERROR_RUNTIME_FAILURE};
+}
+
+VulkanDevice::Image VulkanDevice::create_image(const VkImageCreateInfo& info, const std::string& name) const {
+    Image result;
+    VkImage image = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateImage(device_, &info, nullptr, &image), "vkCreateImage");
+    result.image = {device_, image, functions_.vkDestroyImage};
+    set_name(VK_OBJECT_TYPE_IMAGE, image, name);
+    VkMemoryRequirements needs{};
+    functions_.vkGetImageMemoryRequirements(device_, image, &needs);
+    result.memory = allocate(needs, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, name);
+    verify_vulkan(functions_.vkBindImageMemory(device_, image, *result.memory, 0), "vkBindImageMemory");
+    return result;
+}
+
+VulkanDevice::Buffer VulkanDevice::create_readback_buffer(VkDeviceSize size, const std::string& name) const {
+    Buffer result;
+    result.size = size;
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = size;
+    info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateBuffer(device_, &info, nullptr, &buffer), "vkCreateBuffer");
+    result.buffer = {device_, buffer, functions_.vkDestroyBuffer};
+    set_name(VK_OBJECT_TYPE_BUFFER, buffer, name);
+    VkMemoryRequirements needs{};
+    functions_.vkGetBufferMemoryRequirements(device_, buffer, &needs);
+    result.memory =
+        allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                 VK_MEMORY_PROPERTY_HOST_CACHED_BIT, name);
+    verify_vulkan(functions_.vkBindBufferMemory(device_, buffer, *result.memory, 0), "vkBindBufferMemory");
+    void* mapped = nullptr;
+    verify_vulkan(functions_.vkMapMemory(device_, *result.memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+                  "vkMapMemory");
+    result.mapped = mapped;
+    return result;
+}
+
+void VulkanDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
+    const std::lock_guard lock(submit_mutex_);
+    verify_vulkan(functions_.vkResetCommandPool(device_, *pool_, 0), "vkResetCommandPool");
+    const VkCommandBufferBeginInfo begin_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                              VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+    verify_vulkan(functions_.vkBeginCommandBuffer(commands_, &begin_info), "vkBeginCommandBuffer");
+    record(commands_);
+    verify_vulkan(functions_.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+
+    VkSubmitInfo submit_info{};
+    submit_info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    submit_info.commandBufferCount = 1;
+    submit_info.pCommandBuffers = &commands_;
+    const VkFence fence = *fence_;
+    verify_vulkan(functions_.vkResetFences(device_, 1, &fence), "vkResetFences");
+    verify_vulkan(functions_.vkQueueSubmit(queue_, 1, &submit_info, fence), "vkQueueSubmit");
+    verify_vulkan(functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+}
+
+}  // namespace foveray::simulator
