@@ -68,7 +68,7 @@ void add_json(CLI::App& sub, bool& json) {
 
 void add_view(CLI::App& app, ViewOptions& options) {
     CLI::App& sub = *app.add_subcommand("view", "show a scene in the headset");
-    sub.footer("Example:\n  foveray view assets/scenes/demo/scene.json --runtime simulator --mirror");
+    sub.footer("Example:\n  foveray view assets/scenes/demo.json --runtime simulator --mirror");
     add_path(sub, "SCENE", options.scene, ".gltf, .glb or foveray scene file", "");
     add_picture_options(sub, options);
     sub.add_option_function<std::string>(

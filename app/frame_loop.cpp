@@ -8,11 +8,13 @@
 namespace foveray::app {
 namespace {
 
-constexpr float room_distance = 3.0f;  // metres: how far the room is taken to be where no real surface is known
+constexpr float room_distance =
+    3.0f;  // metres: how far the room is taken to be where no real surface is known
 
 std::vector<xr::ViewPicture> pictures_of(const render::ViewImages& images) {
     std::vector<xr::ViewPicture> pictures;
-    for (const auto& buffers : images.buffers) pictures.push_back({buffers.color->vk(), 0, buffers.depth->vk(), 0});
+    for (const auto& buffers : images.buffers)
+        pictures.push_back({buffers.color->vk(), 0, buffers.depth->vk(), 0});
     return pictures;
 }
 
@@ -21,7 +23,8 @@ void point_gaze(Frame& frame, vec2 pointer) {
     frame.gaze.valid = frame.has_eye_tracking = true;
     frame.gaze.time = frame.display_time;
     frame.gaze.origin = view.stage_from_eye.position;
-    frame.gaze.direction = glm::normalize(transform_direction(view.stage_from_eye, direction_at(view.fov, pointer)));
+    frame.gaze.direction =
+        glm::normalize(transform_direction(view.stage_from_eye, direction_at(view.fov, pointer)));
 }
 
 }  // namespace
@@ -67,14 +70,15 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     accel_scene_.record(cmd, slot, scene, pipeline_);
     const auto room = room_.record(cmd, slot, room_moment(frame), settings);
     const auto fovea = foveation_.update(frame, settings);
-    const auto grid = sampling_.record(cmd, slot,
-                                       {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings,
-                                        every_pixel_});
+    const auto grid = sampling_.record(
+        cmd, slot,
+        {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings, every_pixel_});
     render::LightLayers light;
     for (std::uint32_t sub_sample = 0; sub_sample < grid.sub_sample_count; ++sub_sample) {
         const auto hits = primary_.record(cmd, grid, sub_sample, counters_.address());
         light = lighting_.accumulate(
-            cmd, {grid, hits.surfaces, scene.scene_data, room.params, counters_.address(), settings}, sub_sample);
+            cmd, {grid, hits.surfaces, scene.scene_data, room.params, counters_.address(), settings},
+            sub_sample);
     }
     const auto images = resolve_.record(cmd, light, grid, frame.views, settings);
     compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
@@ -106,9 +110,10 @@ FrameMetrics FrameLoop::metrics() const {
     metrics.polar_size = submitted.polar_size;
     metrics.cpu_ms = submitted.cpu_ms;
     const render::RayCounts counts = counters_.counts(slot);
-    metrics.rays = {counts[shared::COUNT_PRIMARY], counts[shared::COUNT_SHADOW], counts[shared::COUNT_REFLECTION],
-                    counts[shared::COUNT_TRANSPARENT]};
-    for (const gpu::StageTime& time : ring_.stage_times()) metrics.stages.emplace_back(time.name, time.milliseconds);
+    metrics.rays = {counts[shared::COUNT_PRIMARY], counts[shared::COUNT_SHADOW],
+                    counts[shared::COUNT_REFLECTION], counts[shared::COUNT_TRANSPARENT]};
+    for (const gpu::StageTime& time : ring_.stage_times())
+        metrics.stages.emplace_back(time.name, time.milliseconds);
     return metrics;
 }
 

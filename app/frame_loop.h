@@ -44,13 +44,14 @@ class FrameLoop {
         bool rendered = false;
         render::ViewImages images;  // good until the next step
     };
-    /// One frame, from the runtime's wait to its end. `pointer` (0..1 over the left eye's context view, from the top
-    /// left) stands in for the gaze where the headset has no eye tracking. Throws Fault.
+    /// One frame, from the runtime's wait to its end. `pointer` (0..1 over the left eye's context view, from
+    /// the top left) stands in for the gaze where the headset has no eye tracking. Throws Fault.
     Step step(const Settings& settings, std::optional<vec2> pointer = {});
 
     /// Waits until the GPU has finished everything.
     void wait() { ring_.wait(); }
-    /// Of the newest frame that the GPU has finished; with one frame in flight and after wait(), of the last step.
+    /// Of the newest frame that the GPU has finished; with one frame in flight and after wait(), of the last
+    /// step.
     FrameMetrics metrics() const;
 
   private:

@@ -16,7 +16,8 @@ void draw_gaze_mark(Image& picture, vec2 place, bool valid) {
     for (int y = std::max(0, cy - reach); y < std::min<int>(picture.height, cy + reach + 1); ++y) {
         for (int x = std::max(0, cx - reach); x < std::min<int>(picture.width, cx + reach + 1); ++x) {
             const float distance = glm::length(vec2(x + 0.5f, y + 0.5f) - centre);
-            const float cover = strength * std::clamp(half_width + 0.5f - std::abs(distance - radius), 0.0f, 1.0f);
+            const float cover =
+                strength * std::clamp(half_width + 0.5f - std::abs(distance - radius), 0.0f, 1.0f);
             std::uint8_t* pixel = picture.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
             for (int c = 0; c < 3; ++c) {
                 pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + cover * (color[c] - pixel[c])));

@@ -11,11 +11,13 @@ void HeadHistory::add(Nanoseconds time, const Pose& stage_from_head) {
 
 Pose HeadHistory::at(Nanoseconds time) const {
     if (samples_.empty()) return {};
-    const auto after = std::find_if(samples_.begin(), samples_.end(), [&](const auto& s) { return s.time >= time; });
+    const auto after =
+        std::find_if(samples_.begin(), samples_.end(), [&](const auto& s) { return s.time >= time; });
     if (after == samples_.end()) return samples_.back().stage_from_head;
     if (after == samples_.begin() || after->time == time) return after->stage_from_head;
     const auto before = after - 1;
-    const double t = static_cast<double>(time - before->time) / static_cast<double>(after->time - before->time);
+    const double t =
+        static_cast<double>(time - before->time) / static_cast<double>(after->time - before->time);
     return interpolate(before->stage_from_head, after->stage_from_head, static_cast<float>(t));
 }
 

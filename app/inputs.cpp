@@ -26,7 +26,8 @@ Inputs load_inputs(const PictureOptions& options, const Session* session) {
         inputs.camera_name = session->camera->string();
         if (!calibration) calibration = session->calibration;
     }
-    if (!inputs.camera_name.empty()) inputs.camera = passthrough::open_camera(inputs.camera_name, calibration);
+    if (!inputs.camera_name.empty())
+        inputs.camera = passthrough::open_camera(inputs.camera_name, calibration);
     return inputs;
 }
 

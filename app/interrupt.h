@@ -2,8 +2,8 @@
 
 namespace foveray::app {
 
-/// From here on Ctrl-C (SIGINT) and SIGTERM only set a flag, so that work in hand can end in order; a second one
-/// ends the program at once.
+/// From here on Ctrl-C (SIGINT) and SIGTERM only set a flag, so that work in hand can end in order; a second
+/// one ends the program at once.
 void catch_interrupts();
 bool interrupted();
 

@@ -27,15 +27,6 @@ FrameRange written_frames(const ReplayOptions& options, const Session& session) 
     return *options.frames;
 }
 
-/// The session at another headset's rate: as long, not as many frames.
-Session at_rate(Session session, double rate_hz) {
-    if (session.rate_hz == rate_hz) return session;
-    const double seconds = to_seconds(session.duration());
-    session.rate_hz = rate_hz;
-    session.frames = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * rate_hz + 0.5));
-    return session;
-}
-
 /// Collects the left eye's captured pictures into a video, with a ring round the gaze.
 class Video {
   public:
@@ -43,7 +34,8 @@ class Video {
 
     void add(const FrameMetrics& metrics) {
         char name[40];
-        std::snprintf(name, sizeof name, "frame_%05llu_left.png", static_cast<unsigned long long>(metrics.index));
+        std::snprintf(name, sizeof name, "frame_%05llu_left.png",
+                      static_cast<unsigned long long>(metrics.index));
         Image picture = read_image(folder_ / "frames" / name, 3);
         if (metrics.gaze_mark[0]) draw_gaze_mark(picture, *metrics.gaze_mark[0], metrics.gaze_valid);
         if (!writer_) writer_.emplace(folder_ / "video.mp4", picture.width, picture.height, rate_hz_);
@@ -62,9 +54,8 @@ class Video {
 }  // namespace
 
 ExitCode run_replay(const ReplayOptions& options) {
-    Session recorded = read_session(options.session);
-    const HeadsetProfile profile = read_headset_profile(options.headset.value_or(recorded.headset));
-    const Session session = at_rate(std::move(recorded), profile.rate_hz);
+    const Session session = read_session(options.session);
+    const HeadsetProfile profile = read_headset_profile(options.headset.value_or(session.headset));
     const FrameRange range = written_frames(options, session);
     Inputs inputs = load_inputs(options, &session);
     StagedFolder out(options.out);
@@ -89,7 +80,7 @@ ExitCode run_replay(const ReplayOptions& options) {
                     options.reference});
     std::vector<FrameMetrics> frames;
     std::vector<uvec2> view_sizes;
-    Video video(out.path(), profile.rate_hz);
+    Video video(out.path(), session.rate_hz);
     Progress progress(std::cerr, Progress::style_for(options.json), "frames", range.end);
     catch_interrupts();
     std::uint64_t done = 0;
@@ -128,7 +119,7 @@ ExitCode run_replay(const ReplayOptions& options) {
     run.scene = inputs.scene_file.string();
     run.camera = inputs.camera_name;
     run.headset = profile.name;
-    run.rate_hz = profile.rate_hz;
+    run.rate_hz = session.rate_hz;
     run.view_sizes = view_sizes;
     run.reference = options.reference;
     run.device = device.name();

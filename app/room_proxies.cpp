@@ -17,8 +17,8 @@ std::vector<shared::RoomProxy> room_proxies(const scene::Scene& scene) {
         if (low.x > high.x) continue;
         const mat4& m = surface.stage_from_object;
         const vec3 half = 0.5f * (high - low);
-        proxies.push_back({vec3(m * vec4(0.5f * (low + high), 1.0f)), vec3(m[0]) * half.x, vec3(m[1]) * half.y,
-                           vec3(m[2]) * half.z});
+        proxies.push_back({vec3(m * vec4(0.5f * (low + high), 1.0f)), vec3(m[0]) * half.x,
+                           vec3(m[1]) * half.y, vec3(m[2]) * half.z});
     }
     return proxies;
 }

@@ -7,7 +7,8 @@
 
 namespace foveray::app {
 
-/// The scene's real surfaces as boxes round their meshes, stage space: where the camera's picture lies in depth.
+/// The scene's real surfaces as boxes round their meshes, stage space: where the camera's picture lies in
+/// depth.
 std::vector<shared::RoomProxy> room_proxies(const scene::Scene& scene);
 
 }  // namespace foveray::app

@@ -86,7 +86,8 @@ ExitCode run_view(const ViewOptions& options) {
         }
         const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
         if (mirror)
-            mirror->show(mirror_pictures(step), loop.metrics(), step.frame.has_eye_tracking, settings);
+            mirror->show(mirror_pictures(step), loop.metrics(), headset.instance().has_eye_tracking(),
+                         settings);
         if (recorder) recorder->add(step.frame);
     }
     loop.wait();

@@ -74,8 +74,8 @@ std::array<vec3, 9> irradiance_coefficients(const FloatImage& radiance) {
             const float polar = pi * v / static_cast<float>(radiance.height);
             const double part = glm::pi<double>() / (radiance.height * parts_y);
             const double row = static_cast<double>(y * parts_y + part_y);
-            const double weight = (std::cos(part * row) - std::cos(part * (row + 1.0))) * 2.0 * glm::pi<double>() /
-                                  (radiance.width * parts_x);
+            const double weight = (std::cos(part * row) - std::cos(part * (row + 1.0))) * 2.0 *
+                                  glm::pi<double>() / (radiance.width * parts_x);
             for (std::uint32_t x = 0; x < radiance.width; ++x) {
                 const float* p = radiance.at(x, y);
                 for (std::uint32_t part_x = 0; part_x < parts_x; ++part_x) {

@@ -26,8 +26,9 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"xr/simulator", {"base", "render/gpu"}},
     {"passthrough/capture", {"base", "passthrough"}},
     {"passthrough", {"base", "shaders/shared", "render/gpu"}},
-    {"app", {"base", "shaders/shared", "render/gpu", "render/scene", "render/engine", "render", "xr/client",
-             "passthrough", "passthrough/capture"}},
+    {"app",
+     {"base", "shaders/shared", "render/gpu", "render/scene", "render/engine", "render", "xr/client",
+      "passthrough", "passthrough/capture"}},
 };
 
 // Which folders may use a library's headers.

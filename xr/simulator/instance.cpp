@@ -137,4 +137,10 @@ void Instance::release_session() {
     has_session_ = false;
 }
 
+std::shared_ptr<Instance> get_system(XrInstance instance, XrSystemId system) {
+    auto object = get<Instance>(instance);
+    verify(system == Instance::system_id, XR_ERROR_SYSTEM_INVALID);
+    return object;
+}
+
 }  // namespace foveray::simulator

@@ -109,4 +109,7 @@ class Instance : public Object {
     bool has_session_ = false;
 };
 
+/// Refuses with XR_ERROR_HANDLE_INVALID or XR_ERROR_SYSTEM_INVALID.
+std::shared_ptr<Instance> get_system(XrInstance instance, XrSystemId system);
+
 }  // namespace foveray::simulator

@@ -39,8 +39,6 @@ bool Session::focused() const {
     return lifecycle_.focused();
 }
 
-std::uint32_t Session::view_count() const { return view_count_; }
-
 void Session::announce(XrSessionState state) {
     instance_->push_event(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
                                                          handle_of(*this), state, instance_->clock().now()});
@@ -117,6 +115,7 @@ XrResult Session::begin_frame() {
 }
 
 void Session::end_frame(const XrFrameEndInfo& info) {
+    const std::lock_guard end_lock(end_mutex_);
     std::unique_lock lock(mutex_);
     verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
     verify(begun_.has_value(), XR_ERROR_CALL_ORDER_INVALID);

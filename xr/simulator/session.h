@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -35,7 +36,7 @@ class Session : public Object {
     bool running() const;
     bool focused() const;
     /// Views of the configuration that the session was begun with.
-    std::uint32_t view_count() const;
+    std::uint32_t view_count() const { return view_count_; }
 
     void begin(XrViewConfigurationType configuration);
     void end();
@@ -60,10 +61,11 @@ class Session : public Object {
     Inputs inputs_;
     Capture capture_;
 
+    std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
+    std::atomic<std::uint32_t> view_count_ = 0;
     mutable std::mutex mutex_;  // what follows
     std::condition_variable frame_taken_;
     Lifecycle lifecycle_;
-    std::uint32_t view_count_ = 0;
     bool destroyed_ = false, waiting_ = false;
     std::optional<FrameTime> waited_, begun_;
     Nanoseconds played_until_ = -1;  // session time

@@ -26,7 +26,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateSession(XrInstance instance, const XrSess
         const auto object = get<Instance>(instance);
         verify_structure(info, XR_TYPE_SESSION_CREATE_INFO);
         verify(session != nullptr && info->createFlags == 0);
-        verify(info->systemId == Instance::system_id, XR_ERROR_SYSTEM_INVALID);
+        get_system(instance, info->systemId);
         const auto* binding =
             find_input<XrGraphicsBindingVulkanKHR>(info->next, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR);
         verify(binding != nullptr, XR_ERROR_GRAPHICS_DEVICE_INVALID);

@@ -8,12 +8,6 @@
 namespace foveray::simulator {
 namespace {
 
-std::shared_ptr<Instance> get_system(XrInstance instance, XrSystemId system) {
-    auto object = get<Instance>(instance);
-    verify(system == Instance::system_id, XR_ERROR_SYSTEM_INVALID);
-    return object;
-}
-
 void verify_view_configuration(const Instance& instance, XrViewConfigurationType type) {
     verify(instance.supports(type), XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
 }

@@ -5,12 +5,6 @@
 namespace foveray::simulator {
 namespace {
 
-std::shared_ptr<Instance> get_system(XrInstance instance, XrSystemId system) {
-    auto object = get<Instance>(instance);
-    verify(system == Instance::system_id, XR_ERROR_SYSTEM_INVALID);
-    return object;
-}
-
 bool enables_debug_utils(const VkInstanceCreateInfo& info) {
     const std::span names(info.ppEnabledExtensionNames, info.enabledExtensionCount);
     return std::ranges::any_of(

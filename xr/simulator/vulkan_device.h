@@ -44,8 +44,9 @@ VkPhysicalDevice choose_gpu(VkInstance instance, const VulkanInstanceFunctions& 
     _(vkDestroyImage)                                                                                       \
     _(vkGetImageMemoryRequirements)                                                                         \
     _(vkBindImageMemory)                                                                                    \
-    _(vkCreateBuffer) _(vkDestroyBuffer) _(vkGetBufferMemoryRequirements) _(vkBindBufferMemory)             \
-        _(vkAllocateMemory) _(vkFreeMemory) _(vkMapMemory) _(vkCreateCommandPool) _(vkDestroyCommandPool)   \
+    _(vkCreateBuffer)                                                                                       \
+    _(vkDestroyBuffer) _(vkGetBufferMemoryRequirements) _(vkBindBufferMemory) _(vkAllocateMemory)           \
+        _(vkFreeMemory) _(vkMapMemory) _(vkCreateCommandPool) _(vkDestroyCommandPool)                       \
             _(vkAllocateCommandBuffers) _(vkResetCommandPool) _(vkBeginCommandBuffer) _(vkEndCommandBuffer) \
                 _(vkCmdPipelineBarrier) _(vkCmdCopyImageToBuffer) _(vkCreateFence) _(vkDestroyFence)        \
                     _(vkResetFences) _(vkWaitForFences) _(vkQueueSubmit)

@@ -1,8 +1,8 @@
 #include "render/deform.h"
 
 #include "render/scene/deform.h"
-#include "shaders/shared/ray_types.h"
 #include "render/scene/scene_builder.h"
+#include "shaders/shared/ray_types.h"
 #include "tests/fakes/gpu_fixture.h"
 #include "tests/render/geometry/comparison.h"
 #include "tests/render/geometry/scene_rig.h"

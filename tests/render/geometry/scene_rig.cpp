@@ -4,11 +4,16 @@
 
 namespace foveray::render {
 
+SceneRig::Shared& SceneRig::shared_by_all(const gpu::Device& device) {
+    static Shared shared(device);
+    return shared;
+}
+
 SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       ring_(device, slots),
-      textures_(device),
-      pipeline_(device, textures_, slots),
+      textures_(shared_by_all(device).textures),
+      pipeline_(shared_by_all(device).pipeline),
       animator_(scene),
       gpu_scene_(device, textures_, scene, slots),
       accel_(device, gpu_scene_, pipeline_, slots),
@@ -22,6 +27,7 @@ SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_
     grid.kind = shared::GRID_PIXELS;
     grid.view_count = static_cast<std::uint32_t>(views.size());
     grid.jitter = vec2(0.5f);
+    grid.sub_sample_count = 1;
     for (std::size_t i = 0; i < views.size(); ++i) {
         grid.views[i] = view_params(views[i], world_from_stage);
         grid.views[i].first_sample = grid.sample_count;

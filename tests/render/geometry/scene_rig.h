@@ -14,7 +14,7 @@
 
 namespace foveray::render {
 
-/// A scene on the device, with the stages that look at it; every pixel's centre is a sample.
+/// A scene on the device, with the stages that look at it; every pixel's centre is a sample. One at a time.
 class SceneRig {
   public:
     SceneRig(const gpu::Device& device, const scene::Scene& scene);
@@ -34,10 +34,19 @@ class SceneRig {
     SampleGrid upload_grid(std::span<const View> views, const Pose& world_from_stage);
 
     static constexpr std::uint32_t slots = 2;
+
+    /// Pipelines take long to make, so all scenes of a process share them.
+    struct Shared {
+        explicit Shared(const gpu::Device& device) : textures(device), pipeline(device, textures, slots) {}
+        gpu::TextureTable textures;
+        RayPipeline pipeline;
+    };
+    static Shared& shared_by_all(const gpu::Device& device);
+
     const gpu::Device& device_;
     gpu::FrameRing ring_;
-    gpu::TextureTable textures_;
-    RayPipeline pipeline_;
+    gpu::TextureTable& textures_;
+    RayPipeline& pipeline_;
     scene::SceneAnimator animator_;
     GpuScene gpu_scene_;
     AccelScene accel_;

@@ -13,7 +13,8 @@ using fakes::expect_fault;
 
 TEST(Csv, ReadsNumbersWordsAndWindowsLineEnds) {
     const fakes::TemporaryFolder folder;
-    const CsvTable table = CsvTable::read(folder.write("t.csv", "a, b ,c\r\n1,-2.5e3,True\r\n\r\n9007199254740993,0,0\r\n"));
+    const CsvTable table =
+        CsvTable::read(folder.write("t.csv", "a, b ,c\r\n1,-2.5e3,True\r\n\r\n9007199254740993,0,0\r\n"));
     ASSERT_EQ(table.row_count(), 2u);
     EXPECT_EQ(table.number(0, table.column("b")), -2500.0);
     EXPECT_TRUE(table.boolean(0, table.column("c")));
@@ -25,7 +26,8 @@ TEST(Csv, SaysWhereARowIsWrong) {
     const fakes::TemporaryFolder folder;
     expect_fault([&] { CsvTable::read(folder.path() / "none.csv"); }, ExitCode::BadInput, "none.csv");
     expect_fault([&] { CsvTable::read(folder.write("e.csv", "")); }, ExitCode::BadInput, "empty");
-    expect_fault([&] { CsvTable::read(folder.write("s.csv", "a,b\n1,2\n3\n")); }, ExitCode::BadInput, "s.csv:3");
+    expect_fault([&] { CsvTable::read(folder.write("s.csv", "a,b\n1,2\n3\n")); }, ExitCode::BadInput,
+                 "s.csv:3");
     const CsvTable table = CsvTable::read(folder.write("v.csv", "a,b\n1,nan\nx,2\n"));
     expect_fault([&] { table.number(0, 1); }, ExitCode::BadInput, "v.csv:2");
     expect_fault([&] { table.number(1, 0); }, ExitCode::BadInput, "v.csv:3");

@@ -25,7 +25,8 @@ Session some_session() {
     s.head = {{0, {quat(1, 0, 0, 0), {0, 1.5f, 0}}},
               {1'000'000'000, {glm::angleAxis(1.0f, vec3(0, 1, 0)), {1, 1.5f, 0}}}};
     s.gaze = {{100, true, {0, 0, 0}, {0, 0, -1}}, {200, false, {0, 0, 0}, {0, 0, -1}}};
-    s.controllers = {{50, 1, {true, {quat(1, 0, 0, 0), {0.3f, 1, -0.2f}}, {}, 0.5f, 1.0f, {0.1f, -1}, true, false}}};
+    s.controllers = {
+        {50, 1, {true, {quat(1, 0, 0, 0), {0.3f, 1, -0.2f}}, {}, 0.5f, 1.0f, {0.1f, -1}, true, false}}};
     s.controllers.front().state.stage_from_aim = s.controllers.front().state.stage_from_grip;
     s.events = {{700, "focus_lost", ""}, {900, "exit", "now"}};
     return s;
@@ -43,7 +44,8 @@ TEST(Session, ReadsWhatItWrote) {
     EXPECT_EQ(back.scene->lexically_normal(), s.scene->lexically_normal());
     ASSERT_EQ(back.head.size(), 2u);
     EXPECT_EQ(back.head[1].stage_from_head.position, s.head[1].stage_from_head.position);
-    EXPECT_LT(glm::length(back.head[1].stage_from_head.orientation - s.head[1].stage_from_head.orientation), 1e-6f);
+    EXPECT_LT(glm::length(back.head[1].stage_from_head.orientation - s.head[1].stage_from_head.orientation),
+              1e-6f);
     ASSERT_EQ(back.gaze.size(), 2u);
     EXPECT_TRUE(back.gaze[0].valid);
     EXPECT_FALSE(back.gaze[1].valid);
@@ -77,7 +79,8 @@ TEST(Session, RefusesBadFilesWithFileAndLine) {
         folder.write("head.csv", head);
         expect_fault([&] { read_session(folder.path()); }, ExitCode::BadInput, part);
     };
-    expect_fault([&] { read_session(folder.path() / "none"); }, ExitCode::BadInput, "is not a session folder");
+    expect_fault([&] { read_session(folder.path() / "none"); }, ExitCode::BadInput,
+                 "is not a session folder");
     expect_fault([&] { read_session(folder.path()); }, ExitCode::BadInput, "session.json");
     const std::string good = std::string(head_header) + "0,0,1,0,0,0,0,1\n";
     refuse("{", good, "session.json:1");
@@ -90,10 +93,10 @@ TEST(Session, RefusesBadFilesWithFileAndLine) {
     refuse(json(R"("head")"), std::string(head_header) + "5,0,1,0,0,0,0,1\n4,0,1,0,0,0,0,1\n", "head.csv:3");
     folder.write("gaze.csv", "time_ns,valid,ox,oy,oz,dx,dy,dz\n0,1,0,0,0,0,0,0\n");
     refuse(json(R"("gaze")"), good, "gaze.csv:2");
-    refuse(R"({"format":"foveray-session","version":1,"headset":"ci","rate_hz":-1,"frames":3,"recorded":[]})", good,
-           "/rate_hz");
-    refuse(R"({"format":"foveray-session","version":1,"headset":3,"rate_hz":1,"frames":3,"recorded":[]})", good,
-           "session.json");
+    refuse(R"({"format":"foveray-session","version":1,"headset":"ci","rate_hz":-1,"frames":3,"recorded":[]})",
+           good, "/rate_hz");
+    refuse(R"({"format":"foveray-session","version":1,"headset":3,"rate_hz":1,"frames":3,"recorded":[]})",
+           good, "session.json");
 }
 
 }  // namespace

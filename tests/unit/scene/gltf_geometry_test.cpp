@@ -172,9 +172,12 @@ TEST_F(GltfGeometry, meshQuantization) {
         gltf.add_accessor<std::int8_t>({0, 0, 127, 0, 0, 0, -128, 0, 0, 127, 0, 0}, "VEC3", true);
     gltf.json["accessors"][normals]["count"] = 3;
     gltf.json["bufferViews"][1]["byteStride"] = 4;
-    gltf.add_root(
-        {{"mesh", gltf.add_mesh({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}})}});
+    const int uv = gltf.add_accessor<std::int16_t>({-32768, 32767, -32767, 0, 0, 0}, "VEC2", true);
+    const Json attributes = {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uv}};
+    gltf.add_root({{"mesh", gltf.add_mesh({{"attributes", attributes}})}});
     const Primitive p = load_primitive(gltf);
+    EXPECT_EQ(p.uv0[0], vec2(-1, 1));  // the lowest integer is -1 too
+    EXPECT_EQ(p.uv0[1], vec2(-1, 0));
     expect_near(p.positions[1], {100, 0, -50});
     expect_near(p.positions[2], {0, 200, 0});
     expect_near(p.normals[0], {0, 0, 1});

@@ -52,9 +52,9 @@ TEST_F(SceneFile, modelsArePlacedAndShareTheirFile) {
 
 TEST_F(SceneFile, eulerAnglesRollThenPitchThenYaw) {
     const Scene scene = load_json(
-        {{"models", {{{"file", "models/triangle.gltf"}, {"transform", {{"euler_degrees", {90, 0, 90}}}}}}}});
-    // Roll takes x to y, pitch takes y to z.
-    expect_near(transform(start_of(scene).instances[0].world_from_object, {1, 0, 0}), {0, 0, 1});
+        {{"models", {{{"file", "models/triangle.gltf"}, {"transform", {{"euler_degrees", {90, 90, 90}}}}}}}});
+    // Roll takes x to y, pitch y to z, yaw z to x.
+    expect_near(transform(start_of(scene).instances[0].world_from_object, {1, 0, 0}), {1, 0, 0});
 }
 
 TEST_F(SceneFile, lightsOfEveryKind) {
