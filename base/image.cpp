@@ -1,5 +1,6 @@
 #include "base/image.h"
 
+#include <cassert>
 #include <cmath>
 #include <memory>
 
@@ -9,14 +10,12 @@
 #define STBI_NO_PSD
 #define STBI_NO_PIC
 #define STBI_NO_PNM
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
+#include <png.h>
 
 #include "base/error.h"
 
@@ -67,12 +66,17 @@ FloatImage read_hdr(const std::filesystem::path& file) {
 void write_png(const std::filesystem::path& file, const Image& image) {
     std::error_code ignored;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
-    const int ok = stbi_write_png(file.c_str(), static_cast<int>(image.width), static_cast<int>(image.height),
-                                  static_cast<int>(image.channels), image.pixels.data(),
-                                  static_cast<int>(image.width * image.channels));
-    if (!ok)
-        throw_bad_input(file.string(), "cannot write the picture",
+    constexpr png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
+    assert(image.channels >= 1 && image.channels <= 4);
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = image.width;
+    png.height = image.height;
+    png.format = formats[image.channels - 1];
+    if (!png_image_write_to_file(&png, file.c_str(), 0, image.pixels.data(), 0, nullptr)) {
+        throw_bad_input(file.string(), std::string("cannot write the picture: ") + png.message,
                         "check the folder's rights and free space");
+    }
 }
 
 float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }

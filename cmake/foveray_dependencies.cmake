@@ -1,5 +1,6 @@
 # Libraries from the distribution; scripts/setup.sh installs them.
 find_package(Threads REQUIRED)
+find_package(PNG REQUIRED)
 find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/scene/scene.h"
-#include "shaders/render/deform.h"
+#include "shaders/shared/deform.h"
 
 namespace foveray::render {
 namespace {

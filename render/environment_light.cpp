@@ -7,7 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "render/gpu/compute_pipeline.h"
-#include "shaders/render/prefilter.h"
+#include "shaders/shared/prefilter.h"
 
 namespace foveray::render {
 namespace {

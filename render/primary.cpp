@@ -1,6 +1,6 @@
 #include "render/primary.h"
 
-#include "shaders/render/primary.h"
+#include "shaders/shared/primary.h"
 #include "shaders/shared/surface.h"
 
 namespace foveray::render {

@@ -1,4 +1,4 @@
-"""Writes glTF 2.0 binary files (.glb): meshes, materials, embedded pictures. Needs numpy, Pillow.
+"""Writes glTF 2.0 binary files (.glb): meshes, materials, embedded pictures. Needs numpy, Pillow."""
 
 import io
 import json

@@ -52,7 +52,12 @@ vk::Sampler TextureTable::sampler(const SamplerInfo& info) {
     const auto it = samplers_.find(info);
     if (it != samplers_.end()) return *it->second;
     vk::SamplerCreateInfo create({}, info.mag, info.min, info.mip, info.u, info.v);
-    create.maxLod = info.use_mips ? VK_LOD_CLAMP_NONE : 0.0f;
+    create.maxLod = VK_LOD_CLAMP_NONE;
+    if (!info.use_mips) {  // level 0 only, but minified where it is: VkSamplerCreateInfo, on GL_NEAREST and
+                           // GL_LINEAR
+        create.mipmapMode = vk::SamplerMipmapMode::eNearest;
+        create.maxLod = 0.25f;
+    }
     vk::raii::Sampler sampler(device_.vk(), create);
     device_.set_name(*sampler, "sampler " + std::to_string(samplers_.size()));
     return *samplers_.emplace(info, std::move(sampler)).first->second;

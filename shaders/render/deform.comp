@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/render/deform.h"
+#include "shaders/shared/deform.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform PushBlock { DeformPush push; };

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/render/environment.glsl"
-#include "shaders/render/prefilter.h"
+#include "shaders/shared/prefilter.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform PushBlock { PrefilterPush push; };

@@ -110,11 +110,19 @@ TEST_F(PrimaryTest, previousPositionsFollowAnimatedNodes) {
     }
 }
 
-TEST_F(PrimaryTest, anEmptySceneIsAllMisses) {
-    const scene::Scene scene = scene::SceneBuilder().build();
+TEST_F(PrimaryTest, nothingToSeeIsAllMisses) {
+    scene::SceneBuilder builder;
+    scene::Node node;  // of a mesh whose primitives were all points, say
+    node.mesh = builder.add(scene::Mesh{});
+    builder.add(node);
+    const scene::Scene scene = std::move(builder).build();
     SceneRig rig(device(), scene);
     const View view = view_forward(30.0f, {8, 8});
     for (const shared::Surface& s : rig.surfaces(0, {&view, 1})) EXPECT_EQ(s.kind, shared::SURFACE_NONE);
+    const scene::Scene empty = scene::SceneBuilder().build();
+    SceneRig empty_rig(device(), empty);
+    for (const shared::Surface& s : empty_rig.surfaces(0, {&view, 1}))
+        EXPECT_EQ(s.kind, shared::SURFACE_NONE);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ class HeadsetTest : public testing::Test {
         const vec3 aside = glm::normalize(vec3(0.2f, -0.1f, -1));
         session_.gaze = {{0, true, {}, aside}, {3 * period, false, {}, aside}, {4 * period, true, {}, aside}};
         ControllerState hand;
-        hand.valid = hand.primary_button = true;
+        hand.valid = true;
+        hand.trigger = 1.0f;  // the profile's controller has only select, which the trigger presses
         hand.stage_from_grip.position = {0.3f, 1.0f, -0.4f};
         hand.stage_from_aim = hand.stage_from_grip;
         session_.controllers = {{0, 1, hand}};

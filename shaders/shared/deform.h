@@ -1,6 +1,6 @@
 // What deform.comp reads.
-#ifndef FOVERAY_RENDER_DEFORM_H
-#define FOVERAY_RENDER_DEFORM_H
+#ifndef FOVERAY_SHARED_DEFORM_H
+#define FOVERAY_SHARED_DEFORM_H
 
 #include "shaders/shared/portable.h"
 #include "shaders/shared/scene.h"

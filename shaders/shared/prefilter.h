@@ -1,6 +1,6 @@
 // Push constants of prefilter.comp.
-#ifndef FOVERAY_RENDER_PREFILTER_H
-#define FOVERAY_RENDER_PREFILTER_H
+#ifndef FOVERAY_SHARED_PREFILTER_H
+#define FOVERAY_SHARED_PREFILTER_H
 
 #include "shaders/shared/portable.h"
 

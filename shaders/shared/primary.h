@@ -1,6 +1,6 @@
 // Push constants of primary.rgen.
-#ifndef FOVERAY_RENDER_PRIMARY_H
-#define FOVERAY_RENDER_PRIMARY_H
+#ifndef FOVERAY_SHARED_PRIMARY_H
+#define FOVERAY_SHARED_PRIMARY_H
 
 #include "shaders/shared/portable.h"
 
