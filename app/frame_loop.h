@@ -38,6 +38,7 @@ struct FrameLoopSetup {
 class FrameLoop {
   public:
     explicit FrameLoop(const FrameLoopSetup& setup);
+    ~FrameLoop() { wait(); }  // the stages' buffers may still be in use
 
     struct Step {
         Frame frame;

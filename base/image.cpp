@@ -1,6 +1,5 @@
 #include "base/image.h"
 
-#include <cassert>
 #include <cmath>
 #include <memory>
 
@@ -15,7 +14,6 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
-#include <png.h>
 
 #include "base/error.h"
 
@@ -61,22 +59,6 @@ FloatImage read_hdr(const std::filesystem::path& file) {
     const auto* first = static_cast<const float*>(pixels.get());
     image.pixels.assign(first, first + image.pixels.size());
     return image;
-}
-
-void write_png(const std::filesystem::path& file, const Image& image) {
-    std::error_code ignored;
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
-    constexpr png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
-    assert(image.channels >= 1 && image.channels <= 4);
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = image.width;
-    png.height = image.height;
-    png.format = formats[image.channels - 1];
-    if (!png_image_write_to_file(&png, file.c_str(), 0, image.pixels.data(), 0, nullptr)) {
-        throw_bad_input(file.string(), std::string("cannot write the picture: ") + png.message,
-                        "check the folder's rights and free space");
-    }
 }
 
 float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }

@@ -103,7 +103,8 @@ void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuS
         instance.custom_index = static_cast<std::uint32_t>(i);
         instance.record_offset = shape.record_offset;
         instance.mask = static_cast<std::uint8_t>(source.mask);
-        // Front is where the corners go counter-clockwise in object space, which no instance transform changes.
+        // Front is where the corners go counter-clockwise in object space, which no instance transform
+        // changes.
         if (source.mirrored_vertices) instance.flags |= Flag::eTriangleFlipFacing;
         if (shape.any_double_sided) instance.flags |= Flag::eTriangleFacingCullDisable;
         instance.bottom_level = shape.structure.address();

@@ -40,9 +40,10 @@ float kernel_reach() { return push.filter_kind == RESOLVE_BILINEAR ? 1.0 : 2.0; 
 float kernel(float x) {
     x = abs(x);
     if (push.filter_kind == RESOLVE_BILINEAR) return max(1.0 - x, 0.0);
-    // Keys 1981, "Cubic Convolution Interpolation", a = -1/2: passes through the samples.
-    if (x < 1.0) return (1.5 * x - 2.5) * x * x + 1.0;
-    return x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
+    // Mitchell and Netravali 1988, "Reconstruction Filters in Computer Graphics", B = C = 1/3: between the jagged edges
+    // of a sharper cubic and the blur of a smoother one.
+    if (x < 1.0) return ((7.0 * x - 12.0) * x * x + 16.0 / 3.0) / 6.0;
+    return x < 2.0 ? (((-7.0 / 3.0 * x + 12.0) * x - 20.0) * x + 32.0 / 3.0) / 6.0 : 0.0;
 }
 
 LightSample polar_sample(PolarMap map, uint eye, int radial, int angular) {

@@ -20,9 +20,10 @@ bool polar_sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec
     direction = polar_direction(gaze, e, TWO_PI * (float(angular) + 0.5) / float(map.height));
     float radial_spacing = radians(polar_radial_spacing(map, e));
     float angular_spacing = radians(polar_angular_spacing(map, e));
-    // Geometric mean, so that a cone's area is the sample's share of the sphere. Near the gaze samples crowd along
-    // the circle, and resolve averages them; a cone thinner than half the radius's spacing would only alias.
-    cone_spread = sqrt(radial_spacing * max(angular_spacing, 0.25 * radial_spacing));
+    // Geometric mean, so that the cone's area goes with the sample's share of the sphere; where samples crowd along the
+    // circle, near the gaze, thinner cones would only alias. Half of it, because texture filters and resolve's kernel
+    // blur again: measured to come nearest to the low-passed truth (tests/render/light/sharpness_test.cpp).
+    cone_spread = 0.5 * sqrt(radial_spacing * max(angular_spacing, 0.25 * radial_spacing));
     float spacing = max(radial_spacing, angular_spacing);
     for (uint i = 0; i < grid.at[0].view_count; ++i) {
         ViewParams view = grid.at[0].views[i];

@@ -38,18 +38,19 @@ PFN_vkGetInstanceProcAddr system_vulkan();
 VkPhysicalDevice choose_gpu(VkInstance instance, const VulkanInstanceFunctions& functions,
                             std::optional<std::uint32_t> index);
 
-#define FOVERAY_SIMULATOR_VULKAN_FUNCTIONS(_)                                                               \
-    _(vkGetDeviceQueue)                                                                                     \
-    _(vkCreateImage)                                                                                        \
-    _(vkDestroyImage)                                                                                       \
-    _(vkGetImageMemoryRequirements)                                                                         \
-    _(vkBindImageMemory)                                                                                    \
-    _(vkCreateBuffer)                                                                                       \
-    _(vkDestroyBuffer) _(vkGetBufferMemoryRequirements) _(vkBindBufferMemory) _(vkAllocateMemory)           \
-        _(vkFreeMemory) _(vkMapMemory) _(vkCreateCommandPool) _(vkDestroyCommandPool)                       \
-            _(vkAllocateCommandBuffers) _(vkResetCommandPool) _(vkBeginCommandBuffer) _(vkEndCommandBuffer) \
-                _(vkCmdPipelineBarrier) _(vkCmdCopyImageToBuffer) _(vkCreateFence) _(vkDestroyFence)        \
-                    _(vkResetFences) _(vkWaitForFences) _(vkQueueSubmit)
+#define FOVERAY_SIMULATOR_VULKAN_FUNCTIONS(_)                                                           \
+    _(vkGetDeviceQueue)                                                                                 \
+    _(vkCreateImage)                                                                                    \
+    _(vkDestroyImage)                                                                                   \
+    _(vkGetImageMemoryRequirements)                                                                     \
+    _(vkBindImageMemory)                                                                                \
+    _(vkCreateBuffer)                                                                                   \
+    _(vkDestroyBuffer)                                                                                  \
+    _(vkGetBufferMemoryRequirements) _(vkBindBufferMemory) _(vkAllocateMemory) _(vkFreeMemory)          \
+        _(vkMapMemory) _(vkCreateCommandPool) _(vkDestroyCommandPool) _(vkAllocateCommandBuffers)       \
+            _(vkResetCommandPool) _(vkBeginCommandBuffer) _(vkEndCommandBuffer) _(vkCmdPipelineBarrier) \
+                _(vkCmdCopyImageToBuffer) _(vkCreateFence) _(vkDestroyFence) _(vkResetFences)           \
+                    _(vkWaitForFences) _(vkQueueSubmit)
 
 /// A Vulkan object that belongs to a device and is destroyed with its owner. Move-only.
 template <typename Handle>

@@ -54,7 +54,7 @@ TEST_F(ResolveTest, RebuildsASmoothPicture) {
     // Pixels coarser and finer than samples; gaze at a pixel's centre, off-centre, outside of the view.
     for (const std::uint32_t pixels : {33u, 160u}) {
         for (const vec3 gaze :
-             {vec3(0.0f, 0.0f, -1.0f), vec3(0.3f, -0.2f, -1.0f), vec3(-2.0f, 0.5f, -1.0f)}) {
+             {vec3(0.0f, 0.0f, -1.0f), vec3(0.3f, -0.2f, -1.0f), vec3(-0.95f, 0.0f, -1.0f)}) {
             Shot shot = polar_shot(40.0f, pixels);
             shot.fovea.direction = glm::normalize(gaze);
             for (const auto& [filter, tolerance] :
@@ -113,7 +113,8 @@ TEST_F(ResolveTest, CulledSamplesAreLeftOut) {
     };
     shot.settings.resolve_filter = "bilinear";
     int checked = 0;
-    for (const Pixel& pixel : rig.render(shot).views[0].pixels) {
+    const Picture picture = rig.render(shot).views[0];
+    for (const Pixel& pixel : picture.pixels) {
         if (pixel.coverage == 0.0f) continue;  // all around it was culled
         EXPECT_NEAR(pixel.radiance.x, 0.7f, 0.01f);
         ++checked;
@@ -148,7 +149,8 @@ TEST_F(ResolveTest, PixelSamplesAreCopied) {
     shot.views = {square_view(25.0f, 9, look_at({0.0f, 2.0f, 0.0f}, vec3(0.0f)))};
     const Rendered rendered = rig.render(shot);
     for (std::size_t i = 0; i < rendered.light.size(); ++i) {
-        EXPECT_EQ(rendered.views[0].pixels[i].radiance, rendered.light[i].radiance);
+        const vec3 error = rendered.views[0].pixels[i].radiance - rendered.light[i].radiance;
+        EXPECT_LT(glm::length(error), 1e-3f);  // of a half
         EXPECT_EQ(rendered.views[0].pixels[i].coverage, rendered.light[i].coverage);
     }
     EXPECT_NEAR(rendered.views[0].center().depth, 2.0f, 1e-5f);
@@ -169,7 +171,8 @@ TEST_F(ResolveTest, SameFrameTwiceIsTheSameToTheBit) {
         Shot shot = polar_shot(40.0f, 64);
         shot.paint = nullptr;
         std::vector<float> values;
-        for (const Pixel& p : rig.render(shot).views[0].pixels) {
+        const Picture picture = rig.render(shot).views[0];
+        for (const Pixel& p : picture.pixels) {
             for (const float v : {p.radiance.x, p.radiance.y, p.radiance.z, p.coverage, p.transmittance.x,
                                   p.added.x, p.depth})
                 values.push_back(v);

@@ -14,8 +14,8 @@ namespace {
 
 using SharpnessTest = fakes::GpuTest;
 
-constexpr std::uint32_t crop_pixels = 96;
-constexpr std::uint32_t border = 8;  // rendered round the crop for the low pass
+constexpr std::uint32_t crop_pixels = 64;
+constexpr std::uint32_t border = 6;  // rendered round the crop for the low pass
 
 /// A square part of a view, its pixels as they are there, centred `degrees` from the view's axis towards
 /// upper right.
@@ -75,16 +75,18 @@ Image encoded(const FloatImage& image) {
     return result;
 }
 
-/// dB, of what the display shows.
-double psnr(const FloatImage& a, const FloatImage& b) {
+/// Mean squared error of what the display shows.
+double error(const FloatImage& a, const FloatImage& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const double d = double{srgb_from_linear(std::clamp(a.pixels[i], 0.0f, 1.0f))} -
                          double{srgb_from_linear(std::clamp(b.pixels[i], 0.0f, 1.0f))};
         sum += d * d;
     }
-    return -10.0 * std::log10(sum / static_cast<double>(a.pixels.size()));
+    return sum / static_cast<double>(a.pixels.size());
 }
+
+double psnr(double mean_squared_error) { return -10.0 * std::log10(mean_squared_error); }
 
 struct Place {
     const char* name;
@@ -92,56 +94,62 @@ struct Place {
     float off_axis_degrees;
 };
 
+/// Standard deviation in pixels of the Gaussian that leaves half the power at half the acuity's density.
+float low_pass_sigma(const HeadsetProfile& headset, const Place& place) {
+    const auto& profile = headset.views[place.view];
+    const float e = place.off_axis_degrees;
+    const float ppd = std::min(headset.acuity.cap_ppd, headset.acuity.a / (e + headset.acuity.b));
+    const float sigma_degrees = std::sqrt(std::log(2.0f)) / (2.0f * pi * 0.5f * ppd);
+    const float pitch =
+        (std::tan(profile.fov.right) - std::tan(profile.fov.left)) / static_cast<float>(profile.size.x);
+    return sigma_degrees / (degrees(pitch) * std::pow(std::cos(radians(e)), 1.5f));
+}
+
 // Issue 2, "Done when": polar at one sample is at most 1 dB worse than full resolution at one sample, both
-// against 64 samples low-passed to the acuity there (-3 dB at ppd / 2 cycles a degree).
+// against 64 samples low-passed to the acuity there (-3 dB at ppd / 2 cycles a degree). Errors are taken
+// together over scenes: where a crop holds few edges, where they happen to fall decides.
 TEST_F(SharpnessTest, PolarIsAsSharpAsItClaims) {
     const HeadsetProfile headset = read_headset_profile("varjo-xr1");
     const char* pictures = std::getenv("FOVERAY_TEST_PICTURES");  // a folder to leave them in
     const Place places[] = {{"gaze", 2, 0.0f}, {"5 degrees", 2, 5.0f}, {"20 degrees", 0, 20.0f}};
-    for (const std::uint32_t seed : {1u, 2u}) {
+    double full_error[3] = {}, polar_error[3] = {};
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const scene::Scene scene = clutter_scene(seed);
         LightRig rig(device(), scene);
-        for (const Place& place : places) {
+        for (int i = 0; i < 3; ++i) {
+            const Place& place = places[i];
+            const auto& profile = headset.views[place.view];
             Shot shot;
             shot.acuity = headset.acuity;
             shot.read_samples = false;
-            const auto& profile = headset.views[place.view];
-            const View crop = crop_of(profile, place.off_axis_degrees, crop_pixels);
-            shot.views = {crop};
+            shot.views = {crop_of(profile, place.off_axis_degrees, crop_pixels)};
             const FloatImage full = radiance_of(rig.render(shot).views[0]);
             shot.every_pixel = false;
             const FloatImage polar = radiance_of(rig.render(shot).views[0]);
-            std::vector<std::pair<std::string,FloatImage>> exps;
-            for (const char* filter : {"bilinear", "bicubic"}) for (float ratio : {0.9746f, 1.4636f}) {
-                shot.settings.angular_ratio = ratio; shot.settings.resolve_filter = filter;
-                exps.emplace_back(filter + (" " + std::to_string(ratio)), radiance_of(rig.render(shot).views[0]));
-            }
             shot.every_pixel = true;
             shot.settings.reference_samples = 64;
             shot.views = {crop_of(profile, place.off_axis_degrees, crop_pixels + 2 * border)};
             const FloatImage truth = radiance_of(rig.render(shot).views[0]);
-
-            const float e = place.off_axis_degrees;
-            const float ppd = std::min(headset.acuity.cap_ppd, headset.acuity.a / (e + headset.acuity.b));
-            const float sigma_degrees = std::sqrt(std::log(2.0f)) / (2.0f * pi * 0.5f * ppd);
-            const float pixels_per_degree =
-                1.0f / degrees(std::atan(1.0f / static_cast<float>(profile.size.x) *
-                                         (std::tan(profile.fov.right) - std::tan(profile.fov.left))) *
-                               std::pow(std::cos(radians(e)), 1.5f));
-            const FloatImage reference = low_pass(truth, sigma_degrees * pixels_per_degree);
-            const double full_db = psnr(full, reference), polar_db = psnr(polar, reference);
-            std::cout << "scene " << seed << ", " << place.name << ": full " << full_db << " dB, polar "
-                      << polar_db << " dB\n";
-            for (auto& [n, im] : exps) std::cout << "    " << n << ' ' << psnr(im, reference) - full_db << "\n";
-            EXPECT_GE(polar_db, full_db - 1.0) << place.name;
+            const FloatImage reference = low_pass(truth, low_pass_sigma(headset, place));
+            const double full_here = error(full, reference), polar_here = error(polar, reference);
+            std::cout << "scene " << seed << ", " << place.name << ": full " << psnr(full_here)
+                      << " dB, polar " << psnr(polar_here) << " dB\n";
+            full_error[i] += full_here / 3.0;
+            polar_error[i] += polar_here / 3.0;
             if (pictures) {
+                const std::string stem =
+                    std::to_string(seed) + "_" + std::to_string(int(place.off_axis_degrees));
                 const std::filesystem::path folder = pictures;
-                const std::string stem = std::to_string(seed) + "_" + std::to_string(int(e));
                 write_png(folder / (stem + "_full.png"), encoded(full));
                 write_png(folder / (stem + "_polar.png"), encoded(polar));
                 write_png(folder / (stem + "_reference.png"), encoded(reference));
             }
         }
+    }
+    for (int i = 0; i < 3; ++i) {
+        std::cout << places[i].name << ": full " << psnr(full_error[i]) << " dB, polar "
+                  << psnr(polar_error[i]) << " dB\n";
+        EXPECT_GE(psnr(polar_error[i]), psnr(full_error[i]) - 1.0) << places[i].name;
     }
 }
 

@@ -6,10 +6,14 @@
 namespace foveray::simulator_tests {
 namespace {
 
-class Swapchains : public testing::Test {
+/// Before any member of a fixture connects to the runtime.
+struct PlainEnvironment {
+    PlainEnvironment() { set_environment({}); }
+};
+
+class Swapchains : PlainEnvironment, public testing::Test {
   protected:
     Swapchains() {
-        set_environment({});
         client_.create_session();
         client_.begin_session(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
     }
