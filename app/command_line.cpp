@@ -44,8 +44,7 @@ FrameRange parse_frame_range(const std::string& text) {
 }
 
 void add_picture_options(CLI::App& sub, PictureOptions& options) {
-    sub.add_option("--camera", options.camera,
-                   "the wearer's camera: V4L2 device, video file or image sequence")
+    sub.add_option("--camera", options.camera, "the wearer's camera: a video file or an image sequence")
         ->type_name("SRC");
     add_path(sub, "--calibration", options.calibration, "calibration of the camera", "FILE");
     sub.add_option("--headset", options.headset, "headset profile: a name in assets/headsets, or a file")

@@ -24,7 +24,7 @@ struct FrameRange {
 /// What view and replay share. Whatever is absent comes from the session, then from the runtime.
 struct PictureOptions {
     std::optional<std::filesystem::path> scene;  // .gltf, .glb or scene file
-    std::optional<std::string> camera;           // V4L2 device, video file or image sequence
+    std::optional<std::string> camera;           // video file or image sequence
     std::optional<std::filesystem::path> calibration;
     std::optional<std::string> headset;  // a profile's name or file
     std::optional<std::uint32_t> gpu;    // index into vkEnumeratePhysicalDevices

@@ -63,6 +63,7 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     const gpu::Commands cmd = ring_.begin();
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t slot = ring_.slot();
+    collect_metrics(slot);  // of the slot's earlier frame, which is done
     counters_.clear(cmd);
 
     const auto& changes = animator_.advance(frame.time);
@@ -87,8 +88,8 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     counters_.read_back(cmd, slot);
 
     const auto end = std::chrono::steady_clock::now();
-    submitted_[slot] = {frame, every_pixel_ ? uvec2(0) : uvec2(grid.polar.width, grid.polar.height),
-                        std::chrono::duration<double, std::milli>(end - start).count()};
+    submitted_[slot] = Submitted{frame, every_pixel_ ? uvec2(0) : uvec2(grid.polar.width, grid.polar.height),
+                                 std::chrono::duration<double, std::milli>(end - start).count()};
     ring_.submit();
     headset_.end_frame(frame);
     return {std::move(frame), true, images};
@@ -103,9 +104,14 @@ passthrough::RoomMoment FrameLoop::room_moment(const Frame& frame) {
     return moment;
 }
 
-FrameMetrics FrameLoop::metrics() const {
-    const std::uint32_t slot = ring_.slot();
-    const Submitted& submitted = submitted_[slot];
+void FrameLoop::wait() {
+    ring_.wait();
+    collect_metrics(ring_.slot());
+}
+
+void FrameLoop::collect_metrics(std::uint32_t slot) {
+    if (!submitted_[slot]) return;
+    const Submitted& submitted = *submitted_[slot];
     FrameMetrics metrics = frame_metrics(submitted.frame, world_from_stage_, sampling_.gaze_frames(slot));
     metrics.polar_size = submitted.polar_size;
     metrics.cpu_ms = submitted.cpu_ms;
@@ -114,7 +120,8 @@ FrameMetrics FrameLoop::metrics() const {
                     counts[shared::COUNT_REFLECTION], counts[shared::COUNT_TRANSPARENT]};
     for (const gpu::StageTime& time : ring_.stage_times())
         metrics.stages.emplace_back(time.name, time.milliseconds);
-    return metrics;
+    finished_ = std::move(metrics);
+    submitted_[slot].reset();
 }
 
 }  // namespace foveray::app

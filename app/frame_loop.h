@@ -34,7 +34,8 @@ struct FrameLoopSetup {
     std::uint32_t frames_in_flight = 1;
 };
 
-/// The stages of a frame and the order they run in: design.md, "A frame". Replay and view share it.
+/// The stages of a frame and the order they run in: docs/architecture.md, "A frame". Replay and view share
+/// it.
 class FrameLoop {
   public:
     explicit FrameLoop(const FrameLoopSetup& setup);
@@ -50,13 +51,14 @@ class FrameLoop {
     Step step(const Settings& settings, std::optional<vec2> pointer = {});
 
     /// Waits until the GPU has finished everything.
-    void wait() { ring_.wait(); }
-    /// Of the newest frame that the GPU has finished; with one frame in flight and after wait(), of the last
-    /// step.
-    FrameMetrics metrics() const;
+    void wait();
+    /// Of the newest frame known to be finished on the GPU; after wait(), of the last step that rendered.
+    /// Empty before the first.
+    const std::optional<FrameMetrics>& metrics() const { return finished_; }
 
   private:
     passthrough::RoomMoment room_moment(const Frame& frame);
+    void collect_metrics(std::uint32_t slot);
 
     xr::Headset& headset_;
     passthrough::CameraSource* camera_;
@@ -85,7 +87,8 @@ class FrameLoop {
         uvec2 polar_size{0};
         double cpu_ms = 0.0;
     };
-    std::vector<Submitted> submitted_;  // by slot
+    std::vector<std::optional<Submitted>> submitted_;  // by slot, until their metrics are collected
+    std::optional<FrameMetrics> finished_;
 };
 
 /// What to take a headset of unknown make to resolve: HERR's acuity, capped at the density of its views.

@@ -1,6 +1,8 @@
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <optional>
+#include <thread>
 
 #include "app/commands.h"
 #include "app/frame_loop.h"
@@ -58,7 +60,7 @@ ExitCode run_replay(const ReplayOptions& options) {
     const HeadsetProfile profile = read_headset_profile(options.headset.value_or(session.headset));
     const FrameRange range = written_frames(options, session);
     Inputs inputs = load_inputs(options, &session);
-    StagedFolder out(options.out);
+    StagedFolder out(options.out, "report.html");
 
     xr::SimulatorOptions simulator;
     simulator.profile = options.headset.value_or(session.headset);
@@ -87,12 +89,15 @@ ExitCode run_replay(const ReplayOptions& options) {
     while (done < range.end && !interrupted()) {
         const auto state = headset.poll();
         if (state == xr::Headset::State::Ended) break;
-        if (state == xr::Headset::State::Waiting) continue;
+        if (state == xr::Headset::State::Waiting) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            continue;
+        }
         const FrameLoop::Step step = loop.step(options.settings);
         loop.wait();
         done = step.frame.index + 1;
         if (step.rendered && step.frame.index >= range.first) {
-            frames.push_back(loop.metrics());
+            frames.push_back(*loop.metrics());
             video.add(frames.back());
             for (std::size_t i = view_sizes.size(); i < step.frame.views.size(); ++i) {
                 view_sizes.push_back(step.frame.views[i].size);

@@ -1,11 +1,12 @@
 #include "app/session_recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace foveray::app {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session header)
-    : folder_(folder), session_(std::move(header)) {
+    : folder_(folder, "session.json"), session_(std::move(header)) {
     session_.frames = 0;
     session_.head.clear();
     session_.gaze.clear();
@@ -15,6 +16,7 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session he
 
 void SessionRecorder::add(const Frame& frame) {
     session_.frames = frame.index + 1;
+    session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
     if (frame.head_valid) session_.head.push_back({frame.time, frame.stage_from_head});
     if (frame.has_eye_tracking) {
         const Pose head_from_stage = inverse(frame.stage_from_head);

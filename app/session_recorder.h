@@ -11,8 +11,8 @@ namespace foveray::app {
 /// Keeps what a headset reports, frame by frame, and writes it as a session folder.
 class SessionRecorder {
   public:
-    /// `header`: headset, rate and inputs; its streams are ignored. Throws Fault(BadInput) when the folder
-    /// cannot be made.
+    /// `header`: headset and inputs; the rate comes from the frames, its streams are ignored. Throws
+    /// Fault(BadInput) when the folder cannot be made.
     SessionRecorder(const std::filesystem::path& folder, Session header);
 
     void add(const Frame& frame);

@@ -23,8 +23,7 @@ std::optional<HeadsetProfile> profile_of(const ViewOptions& options, const xr::H
 Session recording_header(const ViewOptions& options, const Inputs& inputs,
                          const std::optional<HeadsetProfile>& profile) {
     Session header;
-    header.headset = profile ? profile->name : "ci";
-    header.rate_hz = profile ? profile->rate_hz : 90.0;
+    header.headset = options.headset.value_or(profile ? profile->name : "vive-pro-eye");
     header.scene = std::filesystem::absolute(inputs.scene_file);
     if (inputs.camera) header.camera = std::filesystem::absolute(inputs.camera_name);
     if (options.calibration) header.calibration = std::filesystem::absolute(*options.calibration);
@@ -85,9 +84,10 @@ ExitCode run_view(const ViewOptions& options) {
             continue;
         }
         const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
-        if (mirror)
-            mirror->show(mirror_pictures(step), loop.metrics(), headset.instance().has_eye_tracking(),
-                         settings);
+        if (mirror && step.rendered) {
+            mirror->show(mirror_pictures(step), loop.metrics().value_or(FrameMetrics{}),
+                         headset.instance().has_eye_tracking(), settings);
+        }
         if (recorder) recorder->add(step.frame);
     }
     loop.wait();

@@ -7,10 +7,11 @@
 namespace foveray {
 namespace fs = std::filesystem;
 
-StagedFolder::StagedFolder(fs::path target) : target_(fs::absolute(std::move(target)).lexically_normal()) {
+StagedFolder::StagedFolder(fs::path target, const std::string& marker)
+    : target_(fs::absolute(std::move(target)).lexically_normal()) {
     if (target_.filename().empty()) target_ = target_.parent_path();
     if (fs::exists(target_)) {
-        const bool ours = fs::exists(target_ / "summary.json") || fs::exists(target_ / "session.json");
+        const bool ours = fs::exists(target_ / marker);
         if (!fs::is_directory(target_) || (!ours && !fs::is_empty(target_))) {
             throw_bad_input(target_.string(), "exists and is not an earlier result of foveray",
                             "name another --out, or remove it");

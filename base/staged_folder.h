@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace foveray {
 
@@ -8,9 +9,9 @@ namespace foveray {
 /// commit(), removed by the destructor without it.
 class StagedFolder {
   public:
-    /// Throws Fault(BadInput) when the parent cannot be written, or when `target` exists and was not made by
-    /// foveray (has no summary.json or session.json and is not empty).
-    explicit StagedFolder(std::filesystem::path target);
+    /// `marker`: the file by which an earlier result of the same kind is known, and may be replaced. Throws
+    /// Fault(BadInput) when the parent cannot be written, or when `target` exists, is not empty and lacks it.
+    StagedFolder(std::filesystem::path target, const std::string& marker);
     ~StagedFolder();
     StagedFolder(const StagedFolder&) = delete;
     StagedFolder& operator=(const StagedFolder&) = delete;

@@ -11,9 +11,10 @@ function(foveray_test name)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
+  list(JOIN arg_LABELS "\\;" labels)  # gtest_discover_tests would take a list apart
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE foveray_options ${arg_LIBRARIES} GTest::gtest_main)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT ${arg_TIMEOUT} LABELS "${arg_LABELS}"
-    ENVIRONMENT "FOVERAY_ASSETS=${CMAKE_SOURCE_DIR}/assets")
+    PROPERTIES ENVIRONMENT "FOVERAY_ASSETS=${CMAKE_SOURCE_DIR}/assets" TIMEOUT ${arg_TIMEOUT}
+    LABELS "${labels}")
 endfunction()

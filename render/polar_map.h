@@ -5,7 +5,7 @@
 
 namespace foveray::render {
 
-/// The polar image of a headset: HERR section 3.2 with the display's density as a cap (design.md,
+/// The polar image of a headset: HERR section 3.2 with the display's density as a cap (docs/architecture.md,
 /// "Foveation"). Eccentricities in degrees. `resolution_scale` scales both axes; `angular_ratio` is the
 /// number of angular samples for one radial sample at the same scale.
 shared::PolarMap make_polar_map(const Acuity& acuity, float resolution_scale, float angular_ratio);

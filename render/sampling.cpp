@@ -1,7 +1,9 @@
 #include "render/sampling.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "render/polar_map.h"

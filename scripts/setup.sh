@@ -7,17 +7,17 @@ say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: error: %s\n' "$*" >&2; exit 3; }
 as_root() {
     if [ "$(id -u)" = 0 ]; then "$@"
-    elif command -v sudo >/dev/null; then sudo "$@"
+    elif command -v sudo >/dev/null; then sudo env DEBIAN_FRONTEND=noninteractive "$@"
     else die "packages are missing and this is neither root nor sudo; run scripts/setup.sh as root once"
     fi
 }
 
-[ -r /etc/os-release ] || die "this is no Debian; see README.md for the libraries to install by hand"
+[ -r /etc/os-release ] || die "this is no Debian; install by hand what the list in scripts/setup.sh names"
 # shellcheck disable=SC1091
 . /etc/os-release
 case "${VERSION_CODENAME:-}" in
     bookworm | trixie) ;;
-    *) die "Debian 12 or 13 is needed, this is ${PRETTY_NAME:-unknown}; see README.md to install by hand" ;;
+    *) die "Debian 12 or 13 is needed, this is ${PRETTY_NAME:-unknown}; install by hand what the list in scripts/setup.sh names" ;;
 esac
 
 packages=(
@@ -27,7 +27,7 @@ packages=(
     libglm-dev nlohmann-json3-dev libvalijson-dev libspdlog-dev libcli11-dev libtinygltf-dev libstb-dev libpng-dev
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-calib3d-dev
     libglfw3-dev libimgui-dev
-    libgtest-dev libbenchmark-dev
+    libgtest-dev
 )
 [ "${FOVERAY_SETUP_TESTS:-}" = 1 ] && packages+=(xvfb)
 
@@ -47,20 +47,27 @@ if ! mesa_is_new_enough; then upgrade_mesa=yes; fi
 export DEBIAN_FRONTEND=noninteractive
 
 # On Debian 12 Mesa's software Vulkan has ray tracing only in bookworm-backports, and Vulkan Memory Allocator is
-# packaged (as a header) only in trixie: that one package is let through, nothing else of trixie.
+# packaged (as a header) only in trixie: that one package is let through, nothing else of trixie. Suites that apt knows
+# already are left as they are.
+knows_suite() { [ -n "$(apt-get indextargets --format '$(REPO_URI)' "Codename: $1")" ]; }
+has_candidate() { apt-cache policy "$1" | grep 'Candidate: [0-9]' >/dev/null; }
 add_suites() {
-    local uri
-    uri=$(apt-get indextargets --format '$(REPO_URI)' 'Codename: bookworm' 'Origin: Debian' | head -n 1)
+    local uri suites=()
+    has_candidate libvulkan-memory-allocator-dev || knows_suite trixie || suites+=(trixie)
+    knows_suite bookworm-backports || suites+=(bookworm-backports)
+    [ "${#suites[@]}" -gt 0 ] || return 0
+    uri=$(apt-get indextargets --format '$(REPO_URI)' 'Codename: bookworm' 'Origin: Debian' | awk '/^http/ && !n++')
     [ -n "$uri" ] || die "apt has no Debian mirror configured for bookworm"
-    say "adding bookworm-backports and one package of trixie, from the mirror that apt uses"
+    say "adding ${suites[*]} from the mirror that apt uses"
     as_root tee /etc/apt/sources.list.d/foveray.sources >/dev/null <<SOURCES
 Types: deb
 URIs: $uri
-Suites: bookworm-backports trixie
+Suites: ${suites[*]}
 Components: main
 Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg
 SOURCES
-    as_root tee /etc/apt/preferences.d/foveray >/dev/null <<PINS
+    if [[ " ${suites[*]} " == *" trixie "* ]]; then
+        as_root tee /etc/apt/preferences.d/foveray >/dev/null <<PINS
 Package: *
 Pin: release n=trixie
 Pin-Priority: -10
@@ -69,17 +76,13 @@ Package: libvulkan-memory-allocator-dev
 Pin: release n=trixie
 Pin-Priority: 100
 PINS
+    fi
+    as_root apt-get update -qq
 }
 
 say "updating the package lists"
 as_root apt-get update -qq
-if [ "$VERSION_CODENAME" = bookworm ]; then
-    if ! apt-cache policy libvulkan-memory-allocator-dev | grep -q 'Candidate: [0-9]' ||
-        ! apt-cache madison mesa-vulkan-drivers | grep -q bpo12; then
-        add_suites
-        as_root apt-get update -qq
-    fi
-fi
+if [ "$VERSION_CODENAME" = bookworm ]; then add_suites; fi
 
 install() { as_root apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 "$@" >/dev/null; }
 others=()

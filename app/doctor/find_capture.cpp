@@ -34,8 +34,7 @@ std::vector<Finding> find_cameras(const std::string& devices, const std::string&
         }
     }
     if (findings.empty()) {
-        findings.push_back({State::Optional, "Cameras", "no V4L2 device; recorded video works without",
-                            "plug one in for a live see-through picture"});
+        findings.push_back({State::Optional, "Cameras", "no V4L2 device; recorded video needs none", ""});
     }
     return findings;
 }

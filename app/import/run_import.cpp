@@ -16,7 +16,7 @@ ExitCode run_import(const ImportOptions& options) {
         throw_bad_input("--from " + options.format, "is no format", "`foveray import --help` lists them");
     }
     const Session session = importer->read(options.files);
-    StagedFolder folder(options.out);
+    StagedFolder folder(options.out, "session.json");
     write_session(folder.path(), session);
     folder.commit();
 

@@ -36,7 +36,7 @@ struct RayGeneration {
 };
 
 /// Everything that can run: declared before the first ray, by every stage that traces, then fixed.
-/// `ray_type_count` is R of design.md, "A shader table"; `Records` are the declared record structs.
+/// `ray_type_count` is R of docs/architecture.md, "A shader table"; `Records` are the declared record structs.
 template <std::uint32_t ray_type_count, class... Records>
 class Program {
   public:

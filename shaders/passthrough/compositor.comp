@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One view: virtual part over the room, or over nothing where the headset shows the room itself. design.md,
+// One view: virtual part over the room, or over nothing where the headset shows the room itself. docs/architecture.md,
 // "Mixed reality" and "Conventions".
 #include "shaders/passthrough/room.glsl"
 #include "shaders/passthrough/tone_mapping.glsl"

@@ -51,8 +51,8 @@ LightSample polar_sample(PolarMap map, uint eye, int radial, int angular) {
     return LightSampleArray(push.samples).at[index];
 }
 
-// `place`: radial and angular position in samples, sample centres at whole numbers; `stretch`: samples a pixel, at
-// least 1, in both directions.
+// `place`: radial position in samples, sample centres at whole numbers, and angular position from angle 0; `stretch`:
+// samples a pixel, at least 1, in both directions.
 Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
     Filtered sum = Filtered(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
     vec2 reach = kernel_reach() * stretch;
@@ -63,7 +63,7 @@ Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
         // Beyond the gaze the same circle goes on at the opposite angle.
         bool beyond = i < 0;
         int radial = min(beyond ? -1 - i : i, int(map.width) - 1);
-        float center = place.y + (beyond ? 0.5 * float(height) : 0.0);
+        float center = place.y - polar_ring_start(uint(radial)) + (beyond ? 0.5 * float(height) : 0.0);
         for (int j = int(ceil((center - reach.y) / float(stride))) * stride; float(j) <= center + reach.y; j += stride) {
             float weight = radial_weight * kernel((float(j) - center) / stretch.y);
             int angular = (j % height + height) % height;
@@ -120,15 +120,17 @@ void main() {
         GazeFrame gaze = GazeFrameArray(grid.at[0].gaze_frames).at[view.eye];
         vec2 polar = polar_coordinates(gaze, direction);
         float e = min(polar.x, map.outer);
-        vec2 place = vec2(polar_radius(map, e) * float(map.width) / map.radius_outer,
-                          polar.y / TWO_PI * float(map.height)) - 0.5;
+        vec2 place = vec2(polar_radius(map, e) * float(map.width) / map.radius_outer - 0.5,
+                          polar.y / TWO_PI * float(map.height));
         float pixel_degrees = degrees(pixel_angle(view, uv));
         vec2 spacing = vec2(polar_radial_spacing(map, e), polar_angular_spacing(map, e));
         // No further round than the circle.
         vec2 stretch = max(pixel_degrees / max(spacing, 1e-9), 1.0);
         stretch.y = min(stretch.y, 0.5 * float(map.height) / kernel_reach());
         sum = filter_polar(map, view.eye, place, stretch);
-        ivec2 cell = clamp(ivec2(round(place)), ivec2(0), ivec2(map.width, map.height) - 1);
+        ivec2 cell;
+        cell.x = clamp(int(round(place.x)), 0, int(map.width) - 1);
+        cell.y = (int(round(place.y - polar_ring_start(uint(cell.x)))) + int(map.height)) % int(map.height);
         nearest = polar_sample(map, view.eye, cell.x, cell.y);
         if (push.debug_view == RESOLVE_DEBUG_TILES) {
             ivec2 tile = ivec2(vec2(polar.x, degrees(polar.y)) / 15.0);

@@ -17,7 +17,7 @@ bool polar_sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec
     GazeFrame gaze = GazeFrameArray(grid.at[0].gaze_frames).at[eye];
     float e = polar_eccentricity(map, (float(radial) + 0.5) * map.radius_outer / float(map.width));
     origin = gaze.origin;
-    direction = polar_direction(gaze, e, TWO_PI * (float(angular) + 0.5) / float(map.height));
+    direction = polar_direction(gaze, e, TWO_PI * (float(angular) + polar_ring_start(radial)) / float(map.height));
     float radial_spacing = radians(polar_radial_spacing(map, e));
     float angular_spacing = radians(polar_angular_spacing(map, e));
     // Geometric mean, so that the cone's area goes with the sample's share of the sphere; where samples crowd along the

@@ -1,4 +1,4 @@
-// Light a sample: design.md, "LightLayers".
+// Light a sample: docs/architecture.md, "LightLayers".
 #ifndef FOVERAY_SHARED_LIGHT_LAYERS_H
 #define FOVERAY_SHARED_LIGHT_LAYERS_H
 

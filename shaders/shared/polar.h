@@ -55,6 +55,10 @@ FOVERAY_INLINE float polar_angular_spacing(PolarMap map, float eccentricity) {
     return 360.0f / float(map.height) * sin(eccentricity * 0.017453292519943295f);
 }
 
+// Where the first sample of a ring stands, in angular samples: neighbouring rings are half a sample apart, so that
+// samples stand in quincunx and an edge along the radius is met at twice as many places.
+FOVERAY_INLINE float polar_ring_start(uint radial) { return (radial & 1u) == 0u ? 0.25f : 0.75f; }
+
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// Ray types, masks and the hit-record formula. design.md, "A shader table"; Proceduray section 4.
+// Ray types, masks and the hit-record formula. docs/architecture.md, "A shader table"; Proceduray section 4.
 #ifndef FOVERAY_SHARED_RAY_TYPES_H
 #define FOVERAY_SHARED_RAY_TYPES_H
 

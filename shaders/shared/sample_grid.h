@@ -46,7 +46,8 @@ struct SampleGrid {
     uint sub_sample;
     uint sub_sample_count;  // samples of a pixel that are averaged; each stands for its share of the pixel
     uint64_t gaze_frames;  // GazeFrame[2]
-    PolarMap polar;        // GRID_POLAR: sample = (eye * height + angular) * width + radial
+    PolarMap polar;        // GRID_POLAR: sample = (eye * height + angular) * width + radial, at the angle
+                           // 2π (angular + polar_ring_start(radial)) / height
     ViewParams views[4];
 };
 

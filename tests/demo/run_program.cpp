@@ -8,19 +8,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/fakes/temporary_folder.h"
+#include <gtest/gtest.h>
+
+#include "base/headset_profile.h"
 
 namespace foveray::fakes {
-namespace {
-
-std::string contents(const std::filesystem::path& file) {
-    std::ifstream in(file);
+std::string file_bytes(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
     std::stringstream text;
     text << in.rdbuf();
     return text.str();
 }
-
-}  // namespace
 
 ProgramResult run_foveray(const std::vector<std::string>& arguments) {
     const TemporaryFolder folder;
@@ -43,9 +41,21 @@ ProgramResult run_foveray(const std::vector<std::string>& arguments) {
     int status = 0;
     waitpid(child, &status, 0);
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    result.out = contents(out);
-    result.err = contents(err);
+    result.out = file_bytes(out);
+    result.err = file_bytes(err);
     return result;
+}
+
+std::filesystem::path replay_demo(const TemporaryFolder& folder, const std::string& name,
+                                  const std::vector<std::string>& more) {
+    const std::filesystem::path out = folder.path() / name;
+    std::vector<std::string> arguments = {"replay", assets_folder() / "sessions/demo", "--out", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_foveray(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err.find("Validation"), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, (out / "report.html").string() + "\n");
+    return out;
 }
 
 }  // namespace foveray::fakes

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/fakes/temporary_folder.h"
 
 namespace foveray::fakes {
 
@@ -12,5 +15,12 @@ struct ProgramResult {
 
 /// Runs the built foveray with validation layers on, as a user would, and waits.
 ProgramResult run_foveray(const std::vector<std::string>& arguments);
+
+/// Replays the demo into `folder`/`name`, expects success without a validation message, and returns that
+/// path.
+std::filesystem::path replay_demo(const TemporaryFolder& folder, const std::string& name,
+                                  const std::vector<std::string>& more);
+
+std::string file_bytes(const std::filesystem::path& file);
 
 }  // namespace foveray::fakes

@@ -254,18 +254,23 @@ Frame Headset::begin_frame() {
         frame.head_valid = frame.head_valid && is_usable(view.stage_from_eye);
         frame.views.push_back(view);
     }
+    XrSpaceLocation head{XR_TYPE_SPACE_LOCATION};
+    check(xrLocateSpace(head_.get(), stage_.get(), frame.display_time, &head), "xrLocateSpace");
+    const XrSpaceLocationFlags located =
+        XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+    frame.head_valid =
+        frame.head_valid && (head.locationFlags & located) == located && is_usable(to_pose(head.pose));
     // Without a pose there is nothing to show the scene from: hold the last one, or skip the frame.
     if (frame.head_valid) {
         last_views_ = frame.views;
+        last_head_ = to_pose(head.pose);
     } else if (last_views_.size() == frame.views.size()) {
         frame.views = last_views_;
     } else {
         frame.should_render = false;
     }
 
-    XrSpaceLocation head{XR_TYPE_SPACE_LOCATION};
-    check(xrLocateSpace(head_.get(), stage_.get(), frame.display_time, &head), "xrLocateSpace");
-    if (frame.head_valid) frame.stage_from_head = to_pose(head.pose);
+    frame.stage_from_head = last_head_;
     input_.update(session_.get(), stage_.get(), frame);
     return frame;
 }

@@ -94,7 +94,9 @@ class Headset {
     std::uint64_t frame_index_ = 0;
     Nanoseconds first_display_time_ = 0;
     bool submission_recorded_ = false;
+    // Held while tracking is lost.
     std::vector<View> last_views_;
+    Pose last_head_;
 };
 
 }  // namespace foveray::xr

@@ -61,8 +61,10 @@ LightLayers LightRig::paint(const Shot& shot, const Rendered& rendered) {
         const float e =
             radians(shared::polar_eccentricity(map, (static_cast<float>(i % map.width) + 0.5f) *
                                                         map.radius_outer / static_cast<float>(map.width)));
-        const float angle = 2.0f * pi * (static_cast<float>(i / map.width % map.height) + 0.5f) /
-                            static_cast<float>(map.height);
+        const float angle =
+            2.0f * pi *
+            (static_cast<float>(i / map.width % map.height) + shared::polar_ring_start(i % map.width)) /
+            static_cast<float>(map.height);
         samples[i] = shot.paint(std::cos(e) * gaze.forward +
                                     std::sin(e) * (std::cos(angle) * gaze.right + std::sin(angle) * gaze.up),
                                 rendered.surfaces[i].distance);

@@ -1,7 +1,11 @@
 #include "render/resolve.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
 
+#include "base/image.h"
 #include "tests/fakes/gpu_fixture.h"
 #include "tests/render/light/light_rig.h"
 #include "tests/render/light/test_scene.h"
@@ -157,15 +161,70 @@ TEST_F(ResolveTest, PixelSamplesAreCopied) {
     EXPECT_TRUE(std::isinf(rendered.views[0].at(0, 4).depth));
 }
 
-TEST_F(ResolveTest, SameFrameTwiceIsTheSameToTheBit) {
+scene::Scene still_life() {
     TestScene world(vec3(0.3f));
     world.add(scene::make_sphere(0.4f, 24), metal({0.9f, 0.6f, 0.3f}, 0.2f),
               {.position = {0.0f, 0.0f, -1.5f}});
-    world.add(scene::AreaLight{"lamp", vec2(0.3f), vec3(4.0f)},
-              look_at({0.5f, 1.5f, -1.0f}, {0.0f, 0.0f, -1.5f}));
+    world.add(scene::make_box(vec3(0.2f)), matte({0.8f, 0.2f, 0.2f}), {.position = {0.7f, -0.2f, -1.8f}});
+    world.add(scene::make_box({0.2f, 0.3f, 0.01f}), unlit({0.1f, 0.3f, 0.9f}, 0.5f),
+              {.position = {-0.5f, -0.1f, -1.0f}});
+    world.add(scene::AreaLight{"lamp", vec2(0.3f), vec3(12.0f)},
+              look_at({0.7f, 1.5f, -1.0f}, {0.0f, 0.0f, -1.5f}));
     world.add_real(scene::make_rectangle(vec2(3.0f)), vec3(0.5f), 0.1f, 0.1f,
                    {.position = {0.0f, -0.4f, 0.0f}});
-    const scene::Scene scene = world.build();
+    return world.build();
+}
+
+/// Over a grey room, for the eye.
+void write_picture(const std::string& name, const Picture& picture) {
+    const char* folder = std::getenv("FOVERAY_TEST_PICTURES");
+    if (!folder) return;
+    Image image(picture.size.x, picture.size.y, 3);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const Pixel& p = picture.at(x, y);
+            const vec3 color = p.radiance + (1.0f - p.coverage) * (0.4f * p.transmittance + p.added);
+            for (int c = 0; c < 3; ++c) {
+                image.at(x, y)[c] = static_cast<std::uint8_t>(
+                    255.0f * srgb_from_linear(std::clamp(color[c], 0.0f, 1.0f)) + 0.5f);
+            }
+        }
+    }
+    write_png(std::filesystem::path(folder) / (name + ".png"), image);
+}
+
+TEST_F(ResolveTest, DebugViewsShowWhatTheyName) {
+    const scene::Scene scene = still_life();
+    LightRig rig(device(), scene);
+    Shot shot = polar_shot(40.0f, 256);
+    shot.acuity = {.a = 100.0f, .b = 1.0f, .cap_ppd = 20.0f, .outer_degrees = 90.0f};
+    shot.paint = nullptr;
+    shot.settings.shadow_samples = 16;
+    shot.fovea.direction = glm::normalize(vec3(0.1f, 0.1f, -1.0f));
+    std::map<std::string, Picture> pictures;
+    for (const char* name : {"none", "tiles", "samples", "normal", "albedo", "shadow", "depth"}) {
+        shot.settings.debug_view = name;
+        pictures[name] = rig.render(shot).views[0];
+        write_picture(name, pictures[name]);
+    }
+    // In empty space beside the gaze, at 10 and 20 degrees to the right of it, tiles differ.
+    const auto at = [&](const char* name, float right_degrees, float up_degrees) {
+        const float angle = std::atan(0.1f);
+        const vec2 tangent(std::tan(angle + radians(right_degrees)), std::tan(angle + radians(up_degrees)));
+        const vec2 uv = uv_of(shot.views[0].fov, vec3(tangent, -1.0f));
+        return pictures[name].at(static_cast<std::uint32_t>(256.0f * uv.x),
+                                 static_cast<std::uint32_t>(256.0f * uv.y));
+    };
+    EXPECT_GT(glm::length(at("tiles", 18.0f, 2.0f).radiance - at("tiles", 25.0f, 8.0f).radiance), 0.1f);
+    EXPECT_EQ(at("none", 18.0f, 2.0f).coverage, 0.0f);
+    const Pixel sphere = at("normal", -5.7f, -5.7f);  // straight ahead: faces the eye
+    EXPECT_NEAR(sphere.radiance.z, 1.0f, 0.02f);
+    EXPECT_NEAR(at("albedo", -5.7f, -5.7f).radiance.x, 0.9f, 0.02f);
+    EXPECT_NEAR(at("depth", -5.7f, -5.7f).radiance.x, 1.0f / 2.1f, 0.02f);
+}
+
+TEST_F(ResolveTest, SameFrameTwiceIsTheSameToTheBit) {
+    const scene::Scene scene = still_life();
     const auto bits = [&] {
         LightRig rig(device(), scene);
         Shot shot = polar_shot(40.0f, 64);

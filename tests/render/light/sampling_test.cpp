@@ -54,7 +54,8 @@ TEST_F(SamplingTest, RaysFollowThePolarMap) {
         const auto& gaze = rendered.gaze[i / (map.width * map.height)];
         const vec3 d = glm::normalize(surface.position - gaze.origin);
         const float radial = static_cast<float>(i % map.width) + 0.5f;
-        const float angular = static_cast<float>(i / map.width % map.height) + 0.5f;
+        const float angular = static_cast<float>(i / map.width % map.height) +
+                              shared::polar_ring_start(static_cast<std::uint32_t>(i % map.width));
         const float e = angle_degrees(d, gaze.forward);
         EXPECT_NEAR(shared::polar_radius(map, e) * static_cast<float>(map.width) / map.radius_outer, radial,
                     0.02f);

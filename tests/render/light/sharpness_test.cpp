@@ -14,8 +14,8 @@ namespace {
 
 using SharpnessTest = fakes::GpuTest;
 
-constexpr std::uint32_t crop_pixels = 64;
-constexpr std::uint32_t border = 6;  // rendered round the crop for the low pass
+constexpr std::uint32_t crop_pixels = 48;
+constexpr std::uint32_t border = 5;  // rendered round the crop for the low pass
 
 /// A square part of a view, its pixels as they are there, centred `degrees` from the view's axis towards
 /// upper right.

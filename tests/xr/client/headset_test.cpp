@@ -187,6 +187,7 @@ TEST_F(HeadsetTest, LivesThroughLostTrackingAndVisibilityAndEndsOnRequest) {
     EXPECT_FALSE(played.frames[3].head_valid);
     EXPECT_TRUE(played.frames[3].should_render) << "the last poses are held";
     EXPECT_EQ(played.frames[3].views[0].stage_from_eye, played.frames[1].views[0].stage_from_eye);
+    EXPECT_EQ(played.frames[3].stage_from_head, played.frames[1].stage_from_head);
     bool hidden = false;
     for (const Frame& frame : played.frames) hidden = hidden || !frame.should_render;
     EXPECT_TRUE(hidden);
@@ -204,7 +205,7 @@ TEST_F(HeadsetTest, EndsWhenAskedTo) {
     EXPECT_LT(played.frames.size(), 10u);
 }
 
-TEST_F(HeadsetTest, StereoHeadsetsAndBlendModesThatAreMissingFallBack) {
+TEST_F(HeadsetTest, StereoHeadsetsHaveTwoViewsAndNoGaze) {
     SimulatorOptions simulator = options();
     simulator.profile = "valve-index";
     Headset headset(RuntimeChoice::Simulator, simulator);
