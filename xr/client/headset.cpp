@@ -46,11 +46,27 @@ Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator) {
         }
     }
     use_simulator(simulator);
+    simulator_gpu_ = simulator.gpu;
     instance_ = std::make_unique<Instance>();
     is_simulator_ = true;
 }
 
 Headset::~Headset() { stop(); }
+
+gpu::DeviceSource Headset::device_source() const {
+    gpu::DeviceSource source = instance_->device_source();
+    if (!simulator_gpu_) return source;
+    source.choose_physical_device = [choose = source.choose_physical_device,
+                                     gpu = *simulator_gpu_](VkInstance vulkan) {
+        try {
+            return choose(vulkan);
+        } catch (const Fault&) {
+            throw_bad_input("--gpu " + std::to_string(gpu), "there is no such Vulkan device",
+                            "`foveray doctor` lists them, counted from 0");
+        }
+    };
+    return source;
+}
 
 void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, float far_z) {
     near_z_ = near_z;

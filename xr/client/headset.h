@@ -46,7 +46,7 @@ class Headset {
 
     const Instance& instance() const { return *instance_; }
     bool is_simulator() const { return is_simulator_; }
-    gpu::DeviceSource device_source() const { return instance_->device_source(); }
+    gpu::DeviceSource device_source() const;
 
     /// The device must come from device_source() and outlive the session. `blend`: how the runtime should mix
     /// our picture with the world; falls back to what it offers.
@@ -80,6 +80,7 @@ class Headset {
 
     std::unique_ptr<Instance> instance_;
     bool is_simulator_ = false;
+    std::optional<std::uint32_t> simulator_gpu_;
     SessionHandle session_;
     State state_ = State::Waiting;
     bool begun_ = false;
