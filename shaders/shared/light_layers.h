@@ -1,4 +1,4 @@
-// Light a sample: docs/architecture.md, "LightLayers".
+// Light a sample: docs/architecture.md, "Mixed reality".
 #ifndef FOVERAY_SHARED_LIGHT_LAYERS_H
 #define FOVERAY_SHARED_LIGHT_LAYERS_H
 
