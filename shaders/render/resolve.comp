@@ -55,6 +55,7 @@ LightSample polar_sample(PolarMap map, uint eye, int radial, int angular) {
 // samples a pixel, at least 1, in both directions.
 Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
     Filtered sum = Filtered(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
+    vec3 least = vec3(65504.0), most = vec3(0.0);  // of the samples that the kernel's middle covers
     vec2 reach = kernel_reach() * stretch;
     int height = int(map.height);
     int stride = int(ceil(2.0 * reach.y / MOST_ANGULAR_TAPS));
@@ -65,10 +66,20 @@ Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
         int radial = min(beyond ? -1 - i : i, int(map.width) - 1);
         float center = place.y - polar_ring_start(uint(radial)) + (beyond ? 0.5 * float(height) : 0.0);
         for (int j = int(ceil((center - reach.y) / float(stride))) * stride; float(j) <= center + reach.y; j += stride) {
-            float weight = radial_weight * kernel((float(j) - center) / stretch.y);
-            int angular = (j % height + height) % height;
-            if (weight != 0.0) add_sample(sum, polar_sample(map, eye, radial, angular), weight);
+            float angular_weight = kernel((float(j) - center) / stretch.y);
+            float weight = radial_weight * angular_weight;
+            if (weight == 0.0) continue;
+            LightSample s = polar_sample(map, eye, radial, (j % height + height) % height);
+            add_sample(sum, s, weight);
+            if (s.valid > 0.0 && radial_weight > 0.0 && angular_weight > 0.0) {
+                least = min(least, s.radiance);
+                most = max(most, s.radiance);
+            }
         }
+    }
+    // The kernel undershoots beside a highlight brighter than white, which would ring it with black.
+    if (max(most.r, max(most.g, most.b)) > 1.0 && sum.weight > 0.0) {
+        sum.radiance = clamp(sum.radiance, sum.weight * least, sum.weight * most);
     }
     return sum;
 }
