@@ -6,7 +6,7 @@
 namespace foveray::app {
 
 SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session header)
-    : folder_(folder, "session.json"), session_(std::move(header)) {
+    : folder_(folder, ""), session_(std::move(header)) {
     session_.frames = 0;
     session_.head.clear();
     session_.gaze.clear();
@@ -15,7 +15,9 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session he
 }
 
 void SessionRecorder::add(const Frame& frame) {
-    session_.frames = frame.index + 1;
+    // A slow machine skips display periods: the recording lasts as long as it did, not as many frames as were
+    // drawn.
+    session_.frames = static_cast<std::uint64_t>((frame.time + frame.period / 2) / frame.period) + 1;
     session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
     if (frame.head_valid) session_.head.push_back({frame.time, frame.stage_from_head});
     if (frame.has_eye_tracking) {

@@ -11,7 +11,7 @@ StagedFolder::StagedFolder(fs::path target, const std::string& marker)
     : target_(fs::absolute(std::move(target)).lexically_normal()) {
     if (target_.filename().empty()) target_ = target_.parent_path();
     if (fs::exists(target_)) {
-        const bool ours = fs::exists(target_ / marker);
+        const bool ours = !marker.empty() && fs::exists(target_ / marker);
         if (!fs::is_directory(target_) || (!ours && !fs::is_empty(target_))) {
             throw_bad_input(target_.string(), "exists and is not an earlier result of foveray",
                             "name another --out, or remove it");

@@ -9,8 +9,9 @@ namespace foveray {
 /// commit(), removed by the destructor without it.
 class StagedFolder {
   public:
-    /// `marker`: the file by which an earlier result of the same kind is known, and may be replaced. Throws
-    /// Fault(BadInput) when the parent cannot be written, or when `target` exists, is not empty and lacks it.
+    /// `marker`: the file by which an earlier result of the same kind is known, and may be replaced; empty:
+    /// nothing may be replaced. Throws Fault(BadInput) when the parent cannot be written, or when `target`
+    /// exists, is not empty and lacks it.
     StagedFolder(std::filesystem::path target, const std::string& marker);
     ~StagedFolder();
     StagedFolder(const StagedFolder&) = delete;
