@@ -34,7 +34,8 @@ std::vector<Finding> find_cameras(const std::string& devices, const std::string&
         }
     }
     if (findings.empty()) {
-        findings.push_back({State::Optional, "Cameras", "no V4L2 device; recorded video needs none", ""});
+        findings.push_back({State::Optional, "Cameras", "no V4L2 device; recorded video needs none",
+                            "use --camera with a video file or an image sequence"});
     }
     return findings;
 }
