@@ -4,7 +4,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/error.h"
-#include "tests/passthrough/temporary_folder.h"
+#include "tests/fakes/temporary_folder.h"
 
 namespace foveray::passthrough {
 namespace {
@@ -127,7 +127,7 @@ constexpr const char* good = R"({"format": "foveray-calibration", "version": 1, 
  "head_from_camera": {"position": [0.01, 0.02, -0.05], "orientation": [0, 0, 0, 2]}, "latency_ms": 12.5})";
 
 TEST(CalibrationFile, IsRead) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     const Calibration c = read_calibration(folder.write("camera.json", good));
     EXPECT_EQ(c.model, LensModel::Pinhole);
     EXPECT_EQ(c.size, uvec2(640, 480));
@@ -141,7 +141,7 @@ TEST(CalibrationFile, IsRead) {
 
 /// Replaces `from` by `to` in the good file and returns the message with which it is refused.
 std::string refusal(const std::string& from, const std::string& to) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
     try {

@@ -6,7 +6,7 @@
 #include "passthrough/capture/open_camera.h"
 #include "passthrough/capture/video_reader.h"
 #include "passthrough/capture/video_writer.h"
-#include "tests/passthrough/temporary_folder.h"
+#include "tests/fakes/temporary_folder.h"
 
 namespace foveray::passthrough {
 namespace {
@@ -40,7 +40,7 @@ std::string refusal(const std::function<void()>& action) {
 }
 
 TEST(Video, ComesBackAsWritten) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     const fs::path file = write_video(folder / "v.mp4", 64, 48, 25.0, {40, 120, 200});
     Camera camera = open_camera(file.string(), std::nullopt);
     EXPECT_EQ(camera.source->picture_size(), uvec2(64, 48));
@@ -60,7 +60,7 @@ TEST(Video, ComesBackAsWritten) {
 }
 
 TEST(Video, IsH264In420) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     const fs::path file = write_video(folder / "v.mp4", 65, 49, 30.0, {10, 20});
     cv::VideoCapture video(file.string(), cv::CAP_FFMPEG);
     const int fourcc = static_cast<int>(video.get(cv::CAP_PROP_FOURCC));
@@ -73,7 +73,7 @@ TEST(Video, IsH264In420) {
 }
 
 TEST(Video, FaultsAreOneLineWithTheFile) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     EXPECT_NE(refusal([] { open_video("no/such.mp4"); }).find("no/such.mp4: cannot be opened"),
               std::string::npos);
     const fs::path junk = folder.write("junk.mp4", "this is no video");
@@ -89,7 +89,7 @@ TEST(Video, FaultsAreOneLineWithTheFile) {
 }
 
 TEST(ImageSequence, FolderByName) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     write_png(folder / "b.png", plain(4, 2, {20, 0, 0}));
     write_png(folder / "a.png", plain(4, 2, {10, 0, 0}));
     folder.write("notes.txt", "not a picture");
@@ -106,7 +106,7 @@ TEST(ImageSequence, FolderByName) {
 }
 
 TEST(ImageSequence, NumberedPatternByNumber) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     for (const int number : {2, 10, 9}) {
         write_png(folder / ("f_" + std::to_string(number) + ".png"),
                   plain(2, 2, {static_cast<std::uint8_t>(number), 0, 0}));
@@ -124,7 +124,7 @@ TEST(ImageSequence, NumberedPatternByNumber) {
 }
 
 TEST(ImageSequence, WildcardByName) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     write_png(folder / "l1.png", plain(2, 2, {1, 0, 0}));
     write_png(folder / "r1.png", plain(2, 2, {2, 0, 0}));
     write_png(folder / "l2.png", plain(2, 2, {3, 0, 0}));
@@ -135,7 +135,7 @@ TEST(ImageSequence, WildcardByName) {
 }
 
 TEST(ImageSequence, FramesCsvGivesOrderAndTimes) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     write_png(folder / "a.png", plain(2, 2, {1, 0, 0}));
     write_png(folder / "b.png", plain(2, 2, {2, 0, 0}));
     folder.write("frames.csv", "time_ns,file\n5000000,b.png\n45000000,a.png\n");
@@ -148,7 +148,7 @@ TEST(ImageSequence, FramesCsvGivesOrderAndTimes) {
 }
 
 TEST(ImageSequence, FaultsNameFileAndRow) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     const std::string path = folder.path().string();
     EXPECT_NE(refusal([&] { open_image_sequence(path); }).find("names no pictures"), std::string::npos);
     EXPECT_NE(refusal([] { open_image_sequence("no/such/f_%d.png"); }).find("no such folder"),
@@ -174,7 +174,7 @@ TEST(ImageSequence, FaultsNameFileAndRow) {
 }
 
 TEST(OpenCamera, FitsTheCalibrationToThePictures) {
-    const TemporaryFolder folder;
+    const fakes::TemporaryFolder folder;
     write_png(folder / "a.png", plain(32, 24, {1, 0, 0}));
     const auto calibration = [&](const std::string& height) {
         return folder.write("camera.json",

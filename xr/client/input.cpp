@@ -74,11 +74,11 @@ XrAction Input::make_action(const char* name, const char* localized, XrActionTyp
 void Input::suggest(const Instance& instance) const {
     struct Binding {
         XrAction action;
-        const char* path;
+        const char* left;
+        const char* right;  // null: as on the left
     };
-    const auto suggest_for = [&](const char* profile, std::initializer_list<Binding> bindings) {
-        std::vector<XrActionSuggestedBinding> suggested;
-        for (const Binding& b : bindings) suggested.push_back({b.action, instance.path(b.path)});
+    const auto suggest_for = [&](const char* profile,
+                                 const std::vector<XrActionSuggestedBinding>& suggested) {
         const XrInteractionProfileSuggestedBinding info{
             XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING, nullptr, instance.path(profile),
             static_cast<std::uint32_t>(suggested.size()), suggested.data()};
@@ -88,57 +88,38 @@ void Input::suggest(const Instance& instance) const {
                        result_name(result));
         }
     };
-#define LEFT "/user/hand/left/input/"
-#define RIGHT "/user/hand/right/input/"
-    suggest_for("/interaction_profiles/khr/simple_controller", {{grip_, LEFT "grip/pose"},
-                                                                {grip_, RIGHT "grip/pose"},
-                                                                {aim_, LEFT "aim/pose"},
-                                                                {aim_, RIGHT "aim/pose"},
-                                                                {primary_, LEFT "select/click"},
-                                                                {primary_, RIGHT "select/click"}});
-    suggest_for("/interaction_profiles/oculus/touch_controller", {{grip_, LEFT "grip/pose"},
-                                                                  {grip_, RIGHT "grip/pose"},
-                                                                  {aim_, LEFT "aim/pose"},
-                                                                  {aim_, RIGHT "aim/pose"},
-                                                                  {trigger_, LEFT "trigger/value"},
-                                                                  {trigger_, RIGHT "trigger/value"},
-                                                                  {squeeze_, LEFT "squeeze/value"},
-                                                                  {squeeze_, RIGHT "squeeze/value"},
-                                                                  {thumbstick_, LEFT "thumbstick"},
-                                                                  {thumbstick_, RIGHT "thumbstick"},
-                                                                  {primary_, LEFT "x/click"},
-                                                                  {primary_, RIGHT "a/click"},
-                                                                  {secondary_, LEFT "y/click"},
-                                                                  {secondary_, RIGHT "b/click"}});
-    suggest_for("/interaction_profiles/valve/index_controller", {{grip_, LEFT "grip/pose"},
-                                                                 {grip_, RIGHT "grip/pose"},
-                                                                 {aim_, LEFT "aim/pose"},
-                                                                 {aim_, RIGHT "aim/pose"},
-                                                                 {trigger_, LEFT "trigger/value"},
-                                                                 {trigger_, RIGHT "trigger/value"},
-                                                                 {squeeze_, LEFT "squeeze/value"},
-                                                                 {squeeze_, RIGHT "squeeze/value"},
-                                                                 {thumbstick_, LEFT "thumbstick"},
-                                                                 {thumbstick_, RIGHT "thumbstick"},
-                                                                 {primary_, LEFT "a/click"},
-                                                                 {primary_, RIGHT "a/click"},
-                                                                 {secondary_, LEFT "b/click"},
-                                                                 {secondary_, RIGHT "b/click"}});
-    suggest_for("/interaction_profiles/htc/vive_controller", {{grip_, LEFT "grip/pose"},
-                                                              {grip_, RIGHT "grip/pose"},
-                                                              {aim_, LEFT "aim/pose"},
-                                                              {aim_, RIGHT "aim/pose"},
-                                                              {trigger_, LEFT "trigger/value"},
-                                                              {trigger_, RIGHT "trigger/value"},
-                                                              {thumbstick_, LEFT "trackpad"},
-                                                              {thumbstick_, RIGHT "trackpad"},
-                                                              {primary_, LEFT "menu/click"},
-                                                              {primary_, RIGHT "menu/click"}});
-#undef LEFT
-#undef RIGHT
+    const auto suggest_hands = [&](const char* profile, std::initializer_list<Binding> bindings) {
+        std::vector<XrActionSuggestedBinding> suggested;
+        const auto add = [&](XrAction action, const char* hand, const char* input) {
+            suggested.push_back(
+                {action, instance.path((std::string("/user/hand/") + hand + "/input/" + input).c_str())});
+        };
+        const auto add_both = [&](const Binding& b) {
+            add(b.action, "left", b.left);
+            add(b.action, "right", b.right ? b.right : b.left);
+        };
+        add_both({grip_, "grip/pose", nullptr});
+        add_both({aim_, "aim/pose", nullptr});
+        for (const Binding& binding : bindings) add_both(binding);
+        suggest_for(profile, suggested);
+    };
+    suggest_hands("/interaction_profiles/khr/simple_controller", {{primary_, "select/click", nullptr}});
+    suggest_hands("/interaction_profiles/oculus/touch_controller", {{trigger_, "trigger/value", nullptr},
+                                                                    {squeeze_, "squeeze/value", nullptr},
+                                                                    {thumbstick_, "thumbstick", nullptr},
+                                                                    {primary_, "x/click", "a/click"},
+                                                                    {secondary_, "y/click", "b/click"}});
+    suggest_hands("/interaction_profiles/valve/index_controller", {{trigger_, "trigger/value", nullptr},
+                                                                   {squeeze_, "squeeze/value", nullptr},
+                                                                   {thumbstick_, "thumbstick", nullptr},
+                                                                   {primary_, "a/click", nullptr},
+                                                                   {secondary_, "b/click", nullptr}});
+    suggest_hands("/interaction_profiles/htc/vive_controller", {{trigger_, "trigger/value", nullptr},
+                                                                {thumbstick_, "trackpad", nullptr},
+                                                                {primary_, "menu/click", nullptr}});
     if (gaze_ != XR_NULL_HANDLE) {
         suggest_for("/interaction_profiles/ext/eye_gaze_interaction",
-                    {{gaze_, "/user/eyes_ext/input/gaze_ext/pose"}});
+                    {{gaze_, instance.path("/user/eyes_ext/input/gaze_ext/pose")}});
     }
 }
 

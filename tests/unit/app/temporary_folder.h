@@ -4,29 +4,18 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "tests/fakes/temporary_folder.h"
+
 namespace foveray::app {
 
-/// An empty folder of its own for each test, gone afterwards.
+/// A fixture with an empty folder of its own for each test.
 class TemporaryFolder : public testing::Test {
   protected:
-    void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ =
-            std::filesystem::temp_directory_path() / (std::string("foveray-") + info->test_suite_name() +
-                                                      "-" + info->name() + "-" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        const std::filesystem::path file = folder_ / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file) << text;
-        return file;
+        return temporary_.write(name, text);
     }
     static std::string read(const std::filesystem::path& file) {
         std::ostringstream text;
@@ -34,7 +23,11 @@ class TemporaryFolder : public testing::Test {
         return text.str();
     }
 
-    std::filesystem::path folder_;
+  private:
+    fakes::TemporaryFolder temporary_;
+
+  protected:
+    const std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace foveray::app
