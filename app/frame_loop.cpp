@@ -38,7 +38,7 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
       ring_(setup.device, setup.frames_in_flight),
       textures_(setup.device),
       counters_(setup.device, setup.frames_in_flight),
-      pipeline_(setup.device, textures_, setup.frames_in_flight),
+      pipeline_(setup.device, textures_, setup.frames_in_flight, setup.scene),
       animator_(setup.scene),
       gpu_scene_(setup.device, textures_, setup.scene, setup.frames_in_flight),
       accel_scene_(setup.device, gpu_scene_, pipeline_, setup.frames_in_flight),

@@ -10,12 +10,12 @@
 
 namespace foveray::render {
 
-/// The scene as rays find it: a bottom-level structure a shape, and each frame a top-level one over all
-/// instances. Instance masks are GpuInstance::mask. Single-sided triangles are invisible to surface rays from
-/// behind, and block light from both sides.
+/// The scene as rays find it: a bottom-level structure for each mesh, shape and real surface, and each frame
+/// a top-level one over all instances. Instance masks are GpuInstance::mask. Single-sided triangles are
+/// invisible to surface rays from behind, and block light from both sides.
 class AccelScene {
   public:
-    /// Deforming shapes are refitted each time their vertices change, and rebuilt in each N-th of these
+    /// Deforming structures are refitted each time their vertices change, and rebuilt in each N-th of these
     /// times.
     static constexpr std::uint32_t rebuild_period = 32;
 
@@ -29,15 +29,20 @@ class AccelScene {
                 RayPipeline& pipeline);
 
   private:
-    struct Shape {
+    struct Structure {
         std::vector<gpu::AccelerationGeometry> geometries;
-        gpu::BottomLevel structure;
+        gpu::BottomLevel level;
         std::uint32_t record_offset = 0;
         bool any_double_sided = false;
         std::uint32_t updates = 0;
     };
 
-    std::vector<Shape> shapes_;  // parallel to GpuScene::shapes()
+    /// Refits or rebuilds what changed, and its records.
+    void update_structures(const gpu::Commands& cmd, const GpuSceneFrame& frame, RayPipeline& pipeline);
+
+    const GpuScene& scene_;
+    std::vector<Structure> structures_;  // parallel to GpuScene::structures()
+    std::vector<RayPipeline::Range> table_;
     gpu::TopLevel top_level_;
     std::vector<gpu::TopLevelInstance> instances_;
 };

@@ -1,5 +1,7 @@
 #include "render/gpu_scene.h"
 
+#include <cmath>
+
 #include "render/gpu_lights.h"
 #include "shaders/shared/ray_types.h"
 
@@ -19,6 +21,12 @@ std::vector<bool> used_meshes(const scene::Scene& scene) {
     return used;
 }
 
+bool is_invertible(const mat4& transform) {
+    const mat3 linear(transform);
+    const float size = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    return std::abs(glm::determinant(linear)) > 1e-6f * size;
+}
+
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const scene::Scene& scene,
@@ -28,17 +36,17 @@ GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const
       textures_(device, textures, uploader_, scene),
       environment_(device, textures, scene.environment) {
     materials_ = uploader_.buffer("materials", gpu::range_bytes(textures_.materials()));
-    upload_shapes(device, textures, uploader_, slots);
+    upload_structures(device, textures, uploader_, slots);
     uploader_.flush();
-    instances_.resize(shape_of_instance_.size());
-    previous_.resize(shape_of_instance_.size());
+    instances_.resize(structure_of_instance_.size());
+    previous_.resize(structure_of_instance_.size());
     instance_data_ = FrameBuffer(device, "instances", previous_.size() * sizeof(shared::InstanceData), slots);
     lights_ = FrameBuffer(device, "lights", light_count(scene) * sizeof(shared::Light), slots);
     scene_data_ = FrameBuffer(device, "scene data", sizeof(shared::SceneData), slots);
 }
 
-void GpuScene::upload_shapes(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
-                             std::uint32_t slots) {
+void GpuScene::upload_structures(const gpu::Device& device, gpu::TextureTable& textures,
+                                 gpu::Uploader& uploader, std::uint32_t slots) {
     const std::vector<bool> used = used_meshes(scene_);
     meshes_.resize(scene_.meshes.size());
     for (scene::MeshId id = 0; id < meshes_.size(); ++id) {
@@ -47,40 +55,49 @@ void GpuScene::upload_shapes(const gpu::Device& device, gpu::TextureTable& textu
         meshes_[id] =
             std::make_unique<GpuMesh>(uploader, "mesh " + std::to_string(id) + " " + mesh.name, mesh);
     }
-    const auto add_shape = [&](std::string name, GpuShape::Kind kind, std::uint32_t source,
-                               const std::vector<GpuGeometry>& geometries) {
-        shapes_.push_back({std::move(name), kind, source, geometries});
-        return static_cast<std::uint32_t>(shapes_.size() - 1);
+    const auto add_structure = [&](std::string name, GpuStructure::Kind kind, std::uint32_t source,
+                                   const std::vector<GpuGeometry>& geometries) {
+        structures_.push_back({std::move(name), kind, source, geometries});
+        return static_cast<std::uint32_t>(structures_.size() - 1);
     };
 
     constexpr std::uint32_t none = ~0u;
-    std::vector<std::uint32_t> shape_of_mesh(meshes_.size(), none);
+    std::vector<std::uint32_t> structure_of_mesh(meshes_.size(), none);
     for (const scene::Instance& instance : scene_.instances) {
-        std::uint32_t& shape = shape_of_mesh[instance.mesh];
+        std::uint32_t& shape = structure_of_mesh[instance.mesh];
         if (instance.deformation || shape != none) continue;
-        shape = add_shape("mesh " + std::to_string(instance.mesh), GpuShape::Kind::Mesh, instance.mesh,
-                          meshes_[instance.mesh]->geometries());
+        shape = add_structure("mesh " + std::to_string(instance.mesh), GpuStructure::Kind::Mesh,
+                              instance.mesh, meshes_[instance.mesh]->geometries());
     }
-    first_deformed_shape_ = static_cast<std::uint32_t>(shapes_.size());
+    first_deformed_ = static_cast<std::uint32_t>(structures_.size());
     std::vector<const GpuMesh*> rest;
     for (const scene::Deformation& deformation : scene_.deformations)
         rest.push_back(meshes_[deformation.mesh].get());
     deform_ = std::make_unique<DeformStage>(device, textures, uploader, scene_, rest, slots);
     for (scene::DeformationId id = 0; id < scene_.deformations.size(); ++id) {
-        add_shape("deformation " + std::to_string(id), GpuShape::Kind::DeformedMesh, id,
-                  deform_->geometries(id));
+        add_structure("deformation " + std::to_string(id), GpuStructure::Kind::DeformedMesh, id,
+                      deform_->geometries(id));
     }
     for (const scene::Instance& instance : scene_.instances) {
-        shape_of_instance_.push_back(instance.deformation ? first_deformed_shape_ + *instance.deformation
-                                                          : shape_of_mesh[instance.mesh]);
+        structure_of_instance_.push_back(instance.deformation ? first_deformed_ + *instance.deformation
+                                                              : structure_of_mesh[instance.mesh]);
+    }
+    first_shape_ = static_cast<std::uint32_t>(structures_.size());
+    shapes_ = std::make_unique<GpuShapes>(uploader, scene_);
+    for (scene::ShapeId id = 0; id < scene_.shapes.size(); ++id) {
+        add_structure("shape " + std::to_string(id) + " " + scene_.shapes[id].name, GpuStructure::Kind::Shape,
+                      id, {});
+    }
+    for (const scene::ShapeInstance& instance : scene_.shape_instances) {
+        structure_of_instance_.push_back(first_shape_ + instance.shape);
     }
     for (std::uint32_t id = 0; id < scene_.real_surfaces.size(); ++id) {
         const scene::RealSurface& surface = scene_.real_surfaces[id];
-        shape_of_instance_.push_back(add_shape("real surface " + std::to_string(id) + " " + surface.name,
-                                               GpuShape::Kind::RealSurface, id,
-                                               meshes_[surface.mesh]->geometries()));
+        structure_of_instance_.push_back(
+            add_structure("real surface " + std::to_string(id) + " " + surface.name,
+                          GpuStructure::Kind::RealSurface, id, meshes_[surface.mesh]->geometries()));
     }
-    shape_changed_.resize(shapes_.size());
+    structure_changed_.resize(structures_.size());
 }
 
 void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& world_from_stage) {
@@ -89,9 +106,9 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
         const scene::InstanceState& state = changes.instances[i];
         const scene::Instance& source = scene_.instances[i];
         GpuInstance& instance = instances_[i];
-        instance.shape = shape_of_instance_[i];
+        instance.structure = structure_of_instance_[i];
         instance.world_from_object = state.world_from_object;
-        const bool moves = state.moved || shape_changed_[instance.shape];
+        const bool moves = state.moved || structure_changed_[instance.structure];
         instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
         if (source.deformation) {
             const auto& joints = changes.deformations[*source.deformation].joints;
@@ -99,15 +116,29 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
         }
         previous_[i] = {glm::mat4x3(state.previous_world_from_object), source.node};
     }
+    const std::size_t first_shape = virtual_count;
+    for (std::size_t i = 0; i < scene_.shape_instances.size(); ++i) {
+        const scene::InstanceState& state = changes.shape_instances[i];
+        GpuInstance& instance = instances_[first_shape + i];
+        instance.structure = structure_of_instance_[first_shape + i];
+        instance.world_from_object = state.world_from_object;
+        const bool moves = state.moved || structure_changed_[instance.structure];
+        instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
+        // A parent scaled to nothing hides it; rays cannot be taken into its space.
+        if (!is_invertible(state.world_from_object)) instance.mask = 0;
+        previous_[first_shape + i] = {glm::mat4x3(state.previous_world_from_object),
+                                      scene_.shape_instances[i].node};
+    }
+    const std::size_t first_real = first_shape + scene_.shape_instances.size();
     const mat4 world_from_stage_matrix = to_matrix(world_from_stage);
     for (std::size_t i = 0; i < scene_.real_surfaces.size(); ++i) {
-        GpuInstance& instance = instances_[virtual_count + i];
+        GpuInstance& instance = instances_[first_real + i];
         const mat4 before = instance.world_from_object;
-        instance.shape = shape_of_instance_[virtual_count + i];
+        instance.structure = structure_of_instance_[first_real + i];
         instance.world_from_object = world_from_stage_matrix * scene_.real_surfaces[i].stage_from_object;
         instance.mask = shared::MASK_REAL;
-        previous_[virtual_count + i] = {glm::mat4x3(started_ ? before : instance.world_from_object),
-                                        static_cast<std::uint32_t>(i)};
+        previous_[first_real + i] = {glm::mat4x3(started_ ? before : instance.world_from_object),
+                                     static_cast<std::uint32_t>(i)};
     }
 }
 
@@ -117,7 +148,11 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
     const auto stage = cmd.stage("scene");
     deform_->record(cmd, slot, changes.deformations);
     for (scene::DeformationId id = 0; id < scene_.deformations.size(); ++id) {
-        shape_changed_[first_deformed_shape_ + id] = deform_->changed(id);
+        structure_changed_[first_deformed_ + id] = deform_->changed(id);
+    }
+    shapes_->record(cmd, changes.shapes);
+    for (scene::ShapeId id = 0; id < scene_.shapes.size(); ++id) {
+        structure_changed_[first_shape_ + id] = changes.shapes[id].changed;
     }
     update_instances(changes, world_from_stage);
     started_ = true;
@@ -136,7 +171,7 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
     scene_data_.record(cmd, slot, gpu::bytes_of(data));
     cmd.barrier(Access::TransferWrite, Access::RayTracingRead);
     cmd.barrier(Access::TransferWrite, Access::ComputeRead);
-    return {scene_data_.address(), instances_, shape_changed_};
+    return {scene_data_.address(), instances_, structure_changed_, changes.shapes};
 }
 
 }  // namespace foveray::render

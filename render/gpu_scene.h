@@ -10,24 +10,25 @@
 #include "render/environment_light.h"
 #include "render/frame_buffer.h"
 #include "render/gpu_mesh.h"
+#include "render/gpu_shapes.h"
 #include "render/scene/animator.h"
 #include "render/scene_textures.h"
 
 namespace foveray::render {
 
 /// What one bottom-level structure is built of.
-struct GpuShape {
-    enum class Kind { Mesh, DeformedMesh, RealSurface };
+struct GpuStructure {
+    enum class Kind { Mesh, DeformedMesh, Shape, RealSurface };
 
     std::string name;
     Kind kind = Kind::Mesh;
-    std::uint32_t source = 0;  // id of the mesh, deformation or real surface
-    std::vector<GpuGeometry> geometries;
+    std::uint32_t source = 0;             // id of the mesh, deformation, shape or real surface
+    std::vector<GpuGeometry> geometries;  // of triangles; a shape has one box instead
 };
 
-/// A shape in the world in one frame.
+/// A structure in the world in one frame.
 struct GpuInstance {
-    std::uint32_t shape = 0;
+    std::uint32_t structure = 0;
     mat4 world_from_object{1.0f};
     std::uint32_t mask = 0;  // shared::MASK_…
     bool mirrored_vertices =
@@ -36,11 +37,11 @@ struct GpuInstance {
 
 /// What a frame's shaders and builds find; good until the next record().
 struct GpuSceneFrame {
-    vk::DeviceAddress scene_data = 0;  // shared::SceneData
-    std::span<const GpuInstance>
-        instances;  // by gl_InstanceCustomIndexEXT: the scene's, then its real surfaces
+    vk::DeviceAddress scene_data = 0;        // shared::SceneData
+    std::span<const GpuInstance> instances;  // by gl_InstanceCustomIndexEXT: meshes, shapes, real surfaces
     std::span<const std::uint8_t>
-        shape_changed;  // by shape: its vertices differ from those of the frame before
+        structure_changed;  // by structure: its vertices or box are not those of the frame before
+    std::span<const scene::ShapeState> shapes;  // by shape id
 };
 
 /// A scene on the GPU: uploaded once, then each frame brought to the state that the animator gives.
@@ -52,8 +53,9 @@ class GpuScene {
              std::uint32_t slots);
 
     const scene::Scene& scene() const { return scene_; }
-    /// Meshes that are in use, then deformed meshes, then real surfaces.
-    const std::vector<GpuShape>& shapes() const { return shapes_; }
+    /// Meshes that are in use, then deformed meshes, shapes, real surfaces.
+    const std::vector<GpuStructure>& structures() const { return structures_; }
+    const GpuShapes& shapes() const { return *shapes_; }
     vk::DeviceAddress materials() const { return materials_.address(); }      // shared::Material[]
     vk::DeviceAddress instances() const { return instance_data_.address(); }  // shared::InstanceData[]
 
@@ -63,8 +65,8 @@ class GpuScene {
                          const Pose& world_from_stage);
 
   private:
-    void upload_shapes(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
-                       std::uint32_t slots);
+    void upload_structures(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
+                           std::uint32_t slots);
     void update_instances(const scene::SceneChanges& changes, const Pose& world_from_stage);
 
     const scene::Scene& scene_;
@@ -73,14 +75,15 @@ class GpuScene {
     EnvironmentLight environment_;
     std::vector<std::unique_ptr<GpuMesh>> meshes_;  // by mesh id; null: not in use
     std::unique_ptr<DeformStage> deform_;
+    std::unique_ptr<GpuShapes> shapes_;
     gpu::Buffer materials_;
     FrameBuffer instance_data_, lights_, scene_data_;
-    std::vector<GpuShape> shapes_;
-    std::vector<std::uint32_t> shape_of_instance_;  // instances, then real surfaces
+    std::vector<GpuStructure> structures_;
+    std::vector<std::uint32_t> structure_of_instance_;  // parallel to instances_
     std::vector<GpuInstance> instances_;
     std::vector<shared::InstanceData> previous_;  // parallel to instances_
-    std::vector<std::uint8_t> shape_changed_;
-    std::uint32_t first_deformed_shape_ = 0;
+    std::vector<std::uint8_t> structure_changed_;
+    std::uint32_t first_deformed_ = 0, first_shape_ = 0;  // among the structures
     bool started_ = false;
 };
 

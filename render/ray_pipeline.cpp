@@ -4,16 +4,13 @@
 
 namespace foveray::render {
 
-RayPipeline::Declared RayPipeline::declare() {
+RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene) {
     using engine::HitGroup;
     using engine::RayType;
-    Declared d{engine::SceneProgram("scene", RayType{"surface", "render/surface.rmiss"},
-                                    RayType{"shadow", "render/shadow.rmiss"}),
-               {},
-               {},
-               {},
-               {},
-               {}};
+    engine::SceneProgram program("scene", RayType{"surface", "render/surface.rmiss"},
+                                 RayType{"shadow", "render/shadow.rmiss"});
+    const ShapeTypes shapes(program, scene);
+    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}};
     d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
         "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
         HitGroup{"render/shadow.rchit", "render/shadow.rahit", ""});
@@ -25,8 +22,9 @@ RayPipeline::Declared RayPipeline::declare() {
     return d;
 }
 
-RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots)
-    : RayPipeline(device, textures, slots, declare()) {}
+RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
+                         const scene::Scene& scene)
+    : RayPipeline(device, textures, slots, declare(scene)) {}
 
 RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                          Declared declared)

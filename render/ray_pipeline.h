@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/engine/scene_types.h"
+#include "render/shape_types.h"
 
 namespace foveray::render {
 
@@ -14,12 +15,15 @@ class RayPipeline {
     using Geometry = engine::SceneProgram::Geometry;
     using Range = engine::SceneRayTracer::Range;
 
-    /// `slots`: frames in flight. The texture table must outlive the pipeline.
-    RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots);
+    /// `slots`: frames in flight. The texture table must outlive the pipeline. `scene`: what the pipeline has
+    /// shaders for is what is in it.
+    RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
+                const scene::Scene& scene);
 
     Geometry triangles(const shared::TriangleRecord& record) const;
     /// A real surface: found by surface rays, invisible itself.
     Geometry catcher(const shared::CatcherRecord& record) const;
+    const ShapeTypes& shapes() const { return declared_.shapes; }
 
     /// Ray-generation shaders, by the stage that traces them.
     engine::RayGeneration fixation() const { return declared_.fixation; }
@@ -32,11 +36,12 @@ class RayPipeline {
   private:
     struct Declared {
         engine::SceneProgram program;
+        ShapeTypes shapes;
         engine::GeometryType<shared::TriangleRecord> triangles;
         engine::GeometryType<shared::CatcherRecord> catchers;
         engine::RayGeneration fixation, primary, lighting;
     };
-    static Declared declare();
+    static Declared declare(const scene::Scene& scene);
 
     RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                 Declared declared);

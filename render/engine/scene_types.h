@@ -3,6 +3,7 @@
 #include "render/engine/ray_tracer.h"
 #include "shaders/shared/ray_types.h"
 #include "shaders/shared/scene.h"
+#include "shaders/shared/shapes.h"
 
 namespace foveray::engine {
 
@@ -20,7 +21,10 @@ namespace foveray::engine {
 ///     top_level.build(cmd, slot, instances);   // instance.record_offset = offsets[range]
 ///     tracer.prepare(cmd, slot, top_level);
 ///     tracer.trace(cmd, primary, push, {width, height, 1});
-using SceneProgram = Program<shared::RAY_TYPE_COUNT, shared::TriangleRecord, shared::CatcherRecord>;
-using SceneRayTracer = RayTracer<shared::RAY_TYPE_COUNT, shared::TriangleRecord, shared::CatcherRecord>;
+template <template <std::uint32_t, class...> class Of>
+using WithSceneRecords = Of<shared::RAY_TYPE_COUNT, shared::TriangleRecord, shared::CatcherRecord,
+                            shared::SphereRecord, shared::BoxRecord>;
+using SceneProgram = WithSceneRecords<Program>;
+using SceneRayTracer = WithSceneRecords<RayTracer>;
 
 }  // namespace foveray::engine

@@ -10,6 +10,7 @@ namespace {
 struct Posed {
     std::vector<Transform> local;
     std::vector<std::vector<float>> morph_weights;
+    std::vector<std::vector<float>> shape_values;
 };
 
 Posed pose_at(const Scene& scene, Nanoseconds time) {
@@ -20,6 +21,7 @@ Posed pose_at(const Scene& scene, Nanoseconds time) {
                                           ? scene.meshes[*node.mesh].morph_weights
                                           : node.morph_weights);
     }
+    for (const Shape& shape : scene.shapes) posed.shape_values.push_back(shape.values);
     for (const Animation& animation : scene.animations) {
         const double duration = animation.duration;
         const double loop =
@@ -39,6 +41,10 @@ Posed pose_at(const Scene& scene, Nanoseconds time) {
                     break;
                 case AnimatedProperty::Weights:
                     posed.morph_weights[channel.node] = v;
+                    break;
+                case AnimatedProperty::ShapeValues:
+                    std::ranges::copy(v, posed.shape_values[*scene.nodes[channel.node].shape].begin() +
+                                             channel.first_value);
                     break;
             }
         }
@@ -82,7 +88,9 @@ void place_lights(const Scene& scene, SceneChanges& state) {
 SceneAnimator::SceneAnimator(const Scene& scene) : scene_(&scene) {
     state_.world_from_node.resize(scene.nodes.size());
     state_.instances.resize(scene.instances.size());
+    state_.shape_instances.resize(scene.shape_instances.size());
     state_.deformations.resize(scene.deformations.size());
+    state_.shapes.resize(scene.shapes.size());
 }
 
 const SceneChanges& SceneAnimator::advance(Nanoseconds time) {
@@ -100,16 +108,28 @@ const SceneChanges& SceneAnimator::advance(Nanoseconds time) {
     if (first) state_.previous_world_from_node = state_.world_from_node;
 
     state_.transforms_changed = first;
-    for (InstanceId id = 0; id < scene.instances.size(); ++id) {
-        const Instance& instance = scene.instances[id];
-        InstanceState& s = state_.instances[id];
-        const bool skinned = instance.deformation && scene.deformations[*instance.deformation].skin;
-        s.previous_world_from_object = s.world_from_object;
-        s.world_from_object =
-            skinned ? mat4(1.0f) : state_.world_from_node[instance.node] * instance.node_from_object;
-        if (first) s.previous_world_from_object = s.world_from_object;
+    const auto move = [&](InstanceState& s, const mat4& world_from_object) {
+        s.previous_world_from_object = first ? world_from_object : s.world_from_object;
+        s.world_from_object = world_from_object;
         s.moved = s.world_from_object != s.previous_world_from_object;
         state_.transforms_changed |= s.moved;
+    };
+    for (InstanceId id = 0; id < scene.instances.size(); ++id) {
+        const Instance& instance = scene.instances[id];
+        const bool skinned = instance.deformation && scene.deformations[*instance.deformation].skin;
+        move(state_.instances[id],
+             skinned ? mat4(1.0f) : state_.world_from_node[instance.node] * instance.node_from_object);
+    }
+    for (ShapeInstanceId id = 0; id < scene.shape_instances.size(); ++id) {
+        const ShapeInstance& instance = scene.shape_instances[id];
+        move(state_.shape_instances[id], state_.world_from_node[instance.node] * instance.node_from_object);
+    }
+    for (ShapeId id = 0; id < scene.shapes.size(); ++id) {
+        ShapeState& s = state_.shapes[id];
+        s.changed = first ? scene.shapes[id].animated : s.values != posed.shape_values[id];
+        if (!first && !s.changed) continue;
+        s.values = posed.shape_values[id];
+        s.bounds = bounds_of(scene.shapes[id], s.values);
     }
 
     for (DeformationId id = 0; id < scene.deformations.size(); ++id) {

@@ -26,11 +26,20 @@ struct DeformationState {
     bool changed = false;  // vertices must be computed anew: always in the first frame
 };
 
+struct ShapeState {
+    std::vector<float> values;  // as Shape::values
+    Aabb bounds;                // object space, at these values
+    bool changed =
+        false;  // the values are not the last frame's: of animated shapes always in the first frame
+};
+
 /// One frame's state. Vectors are parallel to those of Scene; lights stand in the order of their nodes.
 struct SceneChanges {
     std::vector<mat4> world_from_node, previous_world_from_node;
     std::vector<InstanceState> instances;
+    std::vector<InstanceState> shape_instances;
     std::vector<DeformationState> deformations;
+    std::vector<ShapeState> shapes;
     std::vector<PlacedLight> lights;
     std::vector<PlacedAreaLight> area_lights;
     bool transforms_changed = false;  // some instance moved since the last frame; always in the first frame

@@ -17,5 +17,7 @@ using AreaLightId = std::uint32_t;
 using CameraId = std::uint32_t;
 using DeformationId = std::uint32_t;
 using InstanceId = std::uint32_t;
+using ShapeId = std::uint32_t;
+using ShapeInstanceId = std::uint32_t;
 
 }  // namespace foveray::scene

@@ -21,6 +21,9 @@ struct Aabb {
     void add(const Aabb& b) { min = glm::min(min, b.min), max = glm::max(max, b.max); }
 };
 
+/// The axis-aligned box round a transformed one.
+Aabb transformed(const Aabb& box, const mat4& to_from_box);
+
 /// Displacements that a morph weight of 1 adds. Each vector is as long as `positions` or empty (nothing
 /// moves).
 struct MorphTarget {

@@ -29,8 +29,10 @@ struct Node {
     std::optional<LightId> light;
     std::optional<AreaLightId> area_light;
     std::optional<CameraId> camera;
+    std::optional<ShapeId> shape;           // instead of a mesh
     std::vector<float> morph_weights;       // empty: the mesh's
-    std::vector<Transform> mesh_instances;  // EXT_mesh_gpu_instancing: node_from_instance; empty: once, as is
+    std::vector<Transform> mesh_instances;  // of the mesh or shape (EXT_mesh_gpu_instancing):
+                                            // node_from_instance; empty: once, as is
 };
 
 struct Skin {
@@ -46,17 +48,18 @@ struct Camera {
 };
 
 enum class Interpolation : std::uint8_t { Step, Linear, CubicSpline };
-enum class AnimatedProperty : std::uint8_t { Translation, Rotation, Scale, Weights };
+enum class AnimatedProperty : std::uint8_t { Translation, Rotation, Scale, Weights, ShapeValues };
 
-/// Keys of one property of one node (glTF 2.0 section 3.11). `values` holds, for each time, `width` floats
-/// (3, 4 as xyzw, 3, or the number of morph targets), or 3 * width for CubicSpline: in-tangent, value,
-/// out-tangent.
+/// Keys of one property of one node (glTF 2.0 section 3.11), or of a parameter of its shape. `values` holds,
+/// for each time, `width` floats (3, 4 as xyzw, 3, the number of morph targets, or the parameter's width), or
+/// 3 * width for CubicSpline: in-tangent, value, out-tangent.
 struct AnimationChannel {
     NodeId node = 0;
     AnimatedProperty property = AnimatedProperty::Translation;
     Interpolation interpolation = Interpolation::Linear;
     std::uint32_t width = 3;
-    std::vector<float> times;  // seconds, strictly increasing
+    std::uint32_t first_value = 0;  // of ShapeValues: where the parameter stands in Shape::values
+    std::vector<float> times;       // seconds, strictly increasing
     std::vector<float> values;
 };
 

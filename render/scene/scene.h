@@ -8,6 +8,7 @@
 #include "render/scene/material.h"
 #include "render/scene/mesh.h"
 #include "render/scene/node.h"
+#include "render/scene/shape.h"
 
 namespace foveray::scene {
 
@@ -25,6 +26,13 @@ struct Instance {
     MeshId mesh = 0;
     mat4 node_from_object{1.0f};               // the transform by EXT_mesh_gpu_instancing, or the identity
     std::optional<DeformationId> deformation;  // then its vertices are the deformation's, not the mesh's
+};
+
+/// A shape placed in the world. Order: by node id, then by instancing index.
+struct ShapeInstance {
+    NodeId node = 0;
+    ShapeId shape = 0;
+    mat4 node_from_object{1.0f};
 };
 
 /// Something real that the wearer sees: it is invisible itself, receives virtual shadows and light, and hides
@@ -46,6 +54,7 @@ struct Scene {
     std::vector<Material> materials;  // never empty; material 0 is glTF's default material
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;
+    std::vector<Shape> shapes;
     std::vector<Skin> skins;
     std::vector<Animation> animations;  // all of them play
     std::vector<Light> lights;
@@ -55,9 +64,10 @@ struct Scene {
     std::vector<RealSurface> real_surfaces;
     Pose world_from_stage;
 
-    std::vector<Deformation> deformations;  // derived, in node order
-    std::vector<Instance> instances;        // derived
-    Aabb bounds;                            // derived: of all instances at time 0, without real surfaces
+    std::vector<Deformation> deformations;       // derived, in node order
+    std::vector<Instance> instances;             // derived
+    std::vector<ShapeInstance> shape_instances;  // derived
+    Aabb bounds;                                 // derived: of all instances at time 0, without real surfaces
 
     std::vector<std::string> warnings;  // what the loaders had to leave out; also logged
 };

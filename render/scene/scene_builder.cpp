@@ -90,9 +90,15 @@ MeshId SceneBuilder::add(Mesh mesh) {
     return append(scene_.meshes, std::move(mesh));
 }
 
+ShapeId SceneBuilder::add(Shape shape) {
+    assert(shape.material < scene_.materials.size());
+    return append(scene_.shapes, std::move(shape));
+}
+
 NodeId SceneBuilder::add(Node node) {
     assert(!node.parent || *node.parent < scene_.nodes.size());
     assert(!node.mesh || *node.mesh < scene_.meshes.size());
+    assert(!node.shape || (*node.shape < scene_.shapes.size() && !node.mesh));
     assert(!node.light || *node.light < scene_.lights.size());
     assert(!node.area_light || *node.area_light < scene_.area_lights.size());
     assert(!node.camera || *node.camera < scene_.cameras.size());
@@ -109,6 +115,9 @@ void SceneBuilder::add(Animation animation) {
     for (const AnimationChannel& channel : animation.channels) {
         assert(channel.node < scene_.nodes.size() && !channel.times.empty());
         animation.duration = std::max(animation.duration, channel.times.back());
+        if (channel.property == AnimatedProperty::ShapeValues) {
+            scene_.shapes[*scene_.nodes[channel.node].shape].animated = true;
+        }
     }
     scene_.animations.push_back(std::move(animation));
 }
@@ -146,8 +155,10 @@ void SceneBuilder::warn(std::string text) {
 void SceneBuilder::derive() {
     scene_.deformations.clear();
     scene_.instances.clear();
+    scene_.shape_instances.clear();
     for (NodeId id = 0; id < scene_.nodes.size(); ++id) {
         const Node& node = scene_.nodes[id];
+        if (node.shape) derive_shape_instances(id);
         if (!node.mesh) continue;
         std::optional<DeformationId> deformation;
         if (node.skin || !scene_.meshes[*node.mesh].morph_weights.empty()) {
@@ -173,6 +184,20 @@ void SceneBuilder::derive() {
         for (const DeformedVertices& part : deformed_at_start(scene_, start, instance)) {
             for (const vec3 p : part.positions) scene_.bounds.add(vec3(world * vec4(p, 1.0f)));
         }
+    }
+    for (ShapeInstanceId id = 0; id < scene_.shape_instances.size(); ++id) {
+        const Aabb& bounds = start.shapes[scene_.shape_instances[id].shape].bounds;
+        scene_.bounds.add(transformed(bounds, start.shape_instances[id].world_from_object));
+    }
+}
+
+void SceneBuilder::derive_shape_instances(NodeId id) {
+    const Node& node = scene_.nodes[id];
+    ShapeInstance instance{.node = id, .shape = *node.shape, .node_from_object = mat4(1.0f)};
+    if (node.mesh_instances.empty()) scene_.shape_instances.push_back(instance);
+    for (const Transform& transform : node.mesh_instances) {
+        instance.node_from_object = to_matrix(transform);
+        scene_.shape_instances.push_back(instance);
     }
 }
 

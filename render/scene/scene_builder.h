@@ -16,6 +16,7 @@ class SceneBuilder {
     TextureId add(Texture texture);
     MaterialId add(Material material);
     MeshId add(Mesh mesh);
+    ShapeId add(Shape shape);
     NodeId add(Node node);
     SkinId add(Skin skin);
     void add(Animation animation);
@@ -38,6 +39,7 @@ class SceneBuilder {
 
   private:
     void derive();
+    void derive_shape_instances(NodeId node);
 
     Scene scene_;
 };

@@ -2,12 +2,13 @@
 #extension GL_EXT_ray_tracing : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/shared/ray_cone.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/surface.h"
 
 layout(shaderRecordEXT, scalar) buffer RecordBlock { CatcherRecord record; };
 hitAttributeEXT vec2 barycentrics;
-layout(location = 0) rayPayloadInEXT Surface surface;  // in: the ray's cone; see trace_surface.glsl
+layout(location = 0) rayPayloadInEXT Surface surface;
 
 void main() {
     UintArray indices = UintArray(record.indices);
@@ -27,7 +28,7 @@ void main() {
                                     .previous_world_from_object * vec4(point, 1.0);
     surface.normal = geometric;
     surface.geometric_normal = geometric;
-    surface.footprint += surface.distance * gl_HitTEXT;
+    surface.footprint = ray_cone_width(ray_cone_of(gl_RayTminEXT), gl_HitTEXT);
     surface.distance = gl_HitTEXT;
     surface.base_color = record.albedo;
     surface.alpha = 1.0;
@@ -37,4 +38,5 @@ void main() {
     surface.occlusion = 1.0;
     surface.material = record.surface;
     surface.instance = gl_InstanceCustomIndexEXT;
+    surface.position_error = 0.0;
 }

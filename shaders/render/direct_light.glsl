@@ -30,11 +30,12 @@ vec2 hash_position(uvec2 v) {
 vec3 light_through(Surface surface, vec3 target) {
     if ((push.flags & LIGHTING_SHADOWS) == 0) return vec3(1.0);
     if (dot(surface.geometric_normal, target - surface.position) <= 0.0) return vec3(0.0);
-    vec3 origin = ray_origin(surface.position, surface.geometric_normal);
+    vec3 origin = ray_origin(surface.position, surface.position_error, surface.geometric_normal);
     vec3 way = target - origin;
     float length_of_way = length(way);
     ++shadow_ray_count;
-    return trace_shadow(MASK_VIRTUAL, origin, 0.0, way / length_of_way, length_of_way * 0.9999);
+    RayCone cone = RayCone(surface.footprint, surface.footprint / max(surface.distance, 1e-3));
+    return trace_shadow(MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999, cone);
 }
 
 // Part of an area light's irradiance that arrives: stratified over the light (Roberts' R2 sequence), turned by a hash

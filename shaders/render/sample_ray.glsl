@@ -2,6 +2,7 @@
 #ifndef FOVERAY_RENDER_SAMPLE_RAY_GLSL
 #define FOVERAY_RENDER_SAMPLE_RAY_GLSL
 
+#include "shaders/shared/ray_cone.h"
 #include "shaders/shared/scene.h"
 #include "shaders/render/gaze_frame.glsl"
 #include "shaders/render/view_space.glsl"
@@ -45,13 +46,11 @@ bool pixel_sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec
     return !hidden_at(view, uv);
 }
 
-// Origin in world space, unit direction; the cone's width at the origin in metres and its spread in radians. False:
-// no view shows the sample, and nothing should be traced.
-bool sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec3 direction, out float cone_width,
-                out float cone_spread) {
-    cone_width = 0.0;
-    if (grid.at[0].kind == GRID_POLAR) return polar_sample_ray(grid, index, origin, direction, cone_spread);
-    return pixel_sample_ray(grid, index, origin, direction, cone_spread);
+// Origin in world space, unit direction. False: no view shows the sample, and nothing should be traced.
+bool sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec3 direction, out RayCone cone) {
+    cone.width = 0.0;
+    if (grid.at[0].kind == GRID_POLAR) return polar_sample_ray(grid, index, origin, direction, cone.spread);
+    return pixel_sample_ray(grid, index, origin, direction, cone.spread);
 }
 
 #endif

@@ -3,9 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/render/triangle_hit.glsl"
+#include "shaders/shared/ray_cone.h"
 #include "shaders/shared/surface.h"
 
-layout(location = 0) rayPayloadInEXT Surface surface;  // in: the ray's cone; see trace_surface.glsl
+layout(location = 0) rayPayloadInEXT Surface surface;
 
 // Inverse transpose: keeps a normal perpendicular to its surface, and its side, under any transform.
 vec3 world_normal(vec3 object_normal) { return normalize(object_normal * mat3(gl_WorldToObjectEXT)); }
@@ -35,7 +36,7 @@ void main() {
     InstanceData instance = InstanceArray(record.instances).at[gl_InstanceCustomIndexEXT];
     bool back = gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT;
     vec3 view = -gl_WorldRayDirectionEXT;
-    float footprint = surface.footprint + surface.distance * gl_HitTEXT;
+    float footprint = ray_cone_width(ray_cone_of(gl_RayTminEXT), gl_HitTEXT);
 
     // Interpolated corners are exact to rounding, a point along the ray is not.
     surface.position = gl_ObjectToWorldEXT * vec4(interpolate(positions, c), 1.0);
@@ -85,4 +86,5 @@ void main() {
     surface.footprint = footprint;
     surface.material = record.material;
     surface.instance = gl_InstanceCustomIndexEXT;
+    surface.position_error = 0.0;
 }

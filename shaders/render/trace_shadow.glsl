@@ -3,15 +3,16 @@
 #define FOVERAY_RENDER_TRACE_SHADOW_GLSL
 
 #include "shaders/engine/scene_structure.glsl"
+#include "shaders/shared/ray_cone.h"
 #include "shaders/shared/ray_types.h"
 
 layout(location = 1) rayPayloadEXT vec3 shadow_payload;
 
 // 1: nothing in between, 0: something opaque. `direction` has unit length. Triangles block light from both sides.
-vec3 trace_shadow(uint mask, vec3 origin, float t_min, vec3 direction, float t_max) {
+vec3 trace_shadow(uint mask, vec3 origin, vec3 direction, float t_max, RayCone cone) {
     shadow_payload = vec3(1.0);
     traceRayEXT(scene_structure, gl_RayFlagsTerminateOnFirstHitEXT, mask, RAY_SHADOW, RAY_TYPE_COUNT, RAY_SHADOW,
-                origin, t_min, direction, t_max, 1);
+                origin, ray_cone_t_min(cone), direction, t_max, 1);
     return shadow_payload;
 }
 

@@ -26,6 +26,12 @@ using uvec2 = glm::uvec2;
 using uvec4 = glm::uvec4;
 using uint64_t = std::uint64_t;
 using mat4x3 = glm::mat4x3;  // four columns of three: a 3x4 affine transform
+using glm::clamp;
+using glm::exp2;
+using glm::floatBitsToUint;
+using glm::log2;
+using glm::max;
+using glm::uintBitsToFloat;
 }  // namespace foveray::shared
 
 #else

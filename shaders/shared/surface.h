@@ -31,13 +31,14 @@ struct Surface {
     float occlusion;         // from the material's texture; 1: open
     uint material;           // id given by the scene
     uint instance;
+    float position_error;  // how far off the true surface `position` may be, besides rounding; metres
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
 namespace foveray::shared {
-static_assert(sizeof(Surface) == 112 && offsetof(Surface, instance) == 108);
+static_assert(sizeof(Surface) == 116 && offsetof(Surface, position_error) == 112);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(SurfaceArray, Surface);

@@ -64,7 +64,7 @@ ProbeProgram Probe::declare() {
     const HitGroup sieve_group{shaders + "narrow.rchit", shaders + "even.rahit", ""};
     sieve = program.add_geometry_type<shared::NarrowRecord>("sieve", sieve_group, sieve_group, sieve_group);
     const HitGroup sphere_group{shaders + "sphere.rchit", "", shaders + "sphere.rint"};
-    sphere = program.add_geometry_type<shared::SphereRecord>("sphere", sphere_group, sphere_group,
+    sphere = program.add_geometry_type<shared::ProbeSphereRecord>("sphere", sphere_group, sphere_group,
                                                              HitGroup{"", "", shaders + "sphere.rint"});
     probe = program.add_ray_generation(shaders + "probe.rgen");
     second = program.add_ray_generation(shaders + "second.rgen");

@@ -8,9 +8,9 @@
 namespace foveray::gpu {
 
 using ProbeProgram =
-    engine::Program<shared::PROBE_RAY_TYPES, shared::WideRecord, shared::NarrowRecord, shared::SphereRecord>;
+    engine::Program<shared::PROBE_RAY_TYPES, shared::WideRecord, shared::NarrowRecord, shared::ProbeSphereRecord>;
 using ProbeTracer = engine::RayTracer<shared::PROBE_RAY_TYPES, shared::WideRecord, shared::NarrowRecord,
-                                      shared::SphereRecord>;
+                                      shared::ProbeSphereRecord>;
 
 /// Vertices on the GPU, three a triangle.
 struct Triangles {
@@ -54,7 +54,7 @@ class Probe {
     engine::GeometryType<shared::WideRecord> wide;
     engine::GeometryType<shared::NarrowRecord> narrow,
         sieve;  // sieve: its any-hit shader lets every second through
-    engine::GeometryType<shared::SphereRecord> sphere;
+    engine::GeometryType<shared::ProbeSphereRecord> sphere;
     engine::RayGeneration probe, second;
     TextureTable textures;
     ProbeTracer tracer;

@@ -28,7 +28,7 @@ std::vector<std::uint32_t> words_of(const shared::WideRecord& r) {
 }
 
 // Spheres that are met at the same distance as the triangles of corner_triangle(…, -1).
-shared::SphereRecord sphere_record(float y, std::uint32_t id) {
+shared::ProbeSphereRecord sphere_record(float y, std::uint32_t id) {
     return {{0.25f, y + 0.25f, -1.5f}, 0.5f, id};
 }
 

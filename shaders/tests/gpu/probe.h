@@ -55,7 +55,7 @@ struct NarrowRecord {
     uint id;
 };
 
-struct SphereRecord {
+struct ProbeSphereRecord {
     vec3 center;
     float radius;
     uint id;

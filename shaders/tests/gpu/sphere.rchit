@@ -4,7 +4,7 @@
 
 #include "shaders/tests/gpu/probe_hit.glsl"
 
-layout(shaderRecordEXT, scalar) buffer Record { SphereRecord record; };
+layout(shaderRecordEXT, scalar) buffer Record { ProbeSphereRecord record; };
 
 void main() {
     write_hit(PROBE_SPHERE);

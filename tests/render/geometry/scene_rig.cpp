@@ -1,19 +1,24 @@
 #include "tests/render/geometry/scene_rig.h"
 
+#include <map>
+#include <set>
+
 #include <glm/gtc/packing.hpp>
 
 namespace foveray::render {
 
-SceneRig::Shared& SceneRig::shared_by_all(const gpu::Device& device) {
-    static Shared shared(device);
-    return shared;
+SceneRig::Shared& SceneRig::shared_for(const gpu::Device& device, const scene::Scene& scene) {
+    static std::map<std::set<scene::ShapeKind>, Shared> by_kinds;
+    std::set<scene::ShapeKind> kinds;
+    for (const scene::Shape& shape : scene.shapes) kinds.insert(shape.kind);
+    return by_kinds.try_emplace(kinds, device, scene).first->second;
 }
 
 SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       ring_(device, slots),
-      textures_(shared_by_all(device).textures),
-      pipeline_(shared_by_all(device).pipeline),
+      textures_(shared_for(device, scene).textures),
+      pipeline_(shared_for(device, scene).pipeline),
       animator_(scene),
       gpu_scene_(device, textures_, scene, slots),
       accel_(device, gpu_scene_, pipeline_, slots),

@@ -35,13 +35,14 @@ class SceneRig {
 
     static constexpr std::uint32_t slots = 2;
 
-    /// Pipelines take long to make, so all scenes of a process share them.
+    /// Pipelines take long to make, so all scenes with the same kinds of shapes share one.
     struct Shared {
-        explicit Shared(const gpu::Device& device) : textures(device), pipeline(device, textures, slots) {}
+        Shared(const gpu::Device& device, const scene::Scene& scene)
+            : textures(device), pipeline(device, textures, slots, scene) {}
         gpu::TextureTable textures;
         RayPipeline pipeline;
     };
-    static Shared& shared_by_all(const gpu::Device& device);
+    static Shared& shared_for(const gpu::Device& device, const scene::Scene& scene);
 
     const gpu::Device& device_;
     gpu::FrameRing ring_;

@@ -29,7 +29,7 @@ LightRig::LightRig(const gpu::Device& device, const scene::Scene& scene)
     : device_(device),
       ring_(device, 1),
       textures_(device),
-      pipeline_(device, textures_, 1),
+      pipeline_(device, textures_, 1, scene),
       animator_(scene),
       gpu_scene_(device, textures_, scene, 1),
       accel_(device, gpu_scene_, pipeline_, 1),

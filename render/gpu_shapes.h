@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+
+#include "render/gpu/commands.h"
+#include "render/scene/animator.h"
+
+namespace foveray::render {
+
+/// What the scene's shapes need on the GPU besides their records: the boxes that bound them.
+class GpuShapes {
+  public:
+    /// The scene must outlive this.
+    GpuShapes(gpu::Uploader& uploader, const scene::Scene& scene);
+
+    /// VkAabbPositionsKHR of the shape, object space.
+    vk::DeviceAddress box(scene::ShapeId id) const;
+
+    /// Brings the boxes of changed shapes up to date. Orders itself after earlier frames' builds and before
+    /// later ones.
+    void record(const gpu::Commands& cmd, std::span<const scene::ShapeState> states);
+
+  private:
+    gpu::Buffer boxes_;
+};
+
+}  // namespace foveray::render
