@@ -10,9 +10,7 @@ Acuity acuity_for(const std::vector<View>& views) {
     acuity.cap_ppd = 0.0f;
     float outer = 0.0f;
     for (const View& view : views) {
-        // Pixels a degree where the view's axis meets its image plane.
-        const float tangents = std::tan(view.fov.right) - std::tan(view.fov.left);
-        acuity.cap_ppd = std::max(acuity.cap_ppd, static_cast<float>(view.size.x) / tangents * radians(1.0f));
+        acuity.cap_ppd = std::max(acuity.cap_ppd, centre_ppd(view.fov, view.size.x));
         for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
             const vec3 d = glm::normalize(direction_at(view.fov, corner));
             outer = std::max(outer, degrees(std::acos(-d.z)));

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ostream>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
+#include "app/bench/options.h"
 #include "app/import/importers.h"
 #include "app/version.h"
 #include "base/text.h"
@@ -29,6 +29,15 @@ void add_path(CLI::App& sub, const std::string& name, fs::path& target, const st
            name, [&target](const std::string& text) { target = text; }, help)
         ->type_name(type)
         ->required(required);
+}
+
+/// One of `names`, which stand for the value in --help.
+void allow_only(CLI::Option& option, const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : "|") + name;
+    CLI::IsMember check(names);
+    check.description("");
+    option.type_name(list)->check(check);
 }
 
 FrameRange parse_frame_range(const std::string& text) {
@@ -70,16 +79,15 @@ void add_view(CLI::App& app, ViewOptions& options) {
     sub.footer("Example:\n  foveray view assets/scenes/demo.json --runtime simulator --mirror");
     add_path(sub, "SCENE", options.scene, ".gltf, .glb or foveray scene file", "");
     add_picture_options(sub, options);
-    sub.add_option_function<std::string>(
-           "--runtime",
-           [&options](const std::string& name) {
-               options.runtime = name == "system"      ? xr::RuntimeChoice::System
-                                 : name == "simulator" ? xr::RuntimeChoice::Simulator
-                                                       : xr::RuntimeChoice::Auto;
-           },
-           "OpenXR runtime; auto: the system's if it answers, else the simulator")
-        ->type_name("")
-        ->check(CLI::IsMember({"auto", "system", "simulator"}));
+    allow_only(*sub.add_option_function<std::string>(
+                   "--runtime",
+                   [&options](const std::string& name) {
+                       options.runtime = name == "system"      ? xr::RuntimeChoice::System
+                                         : name == "simulator" ? xr::RuntimeChoice::Simulator
+                                                               : xr::RuntimeChoice::Auto;
+                   },
+                   "OpenXR runtime; auto: the system's if it answers, else the simulator"),
+               {"auto", "system", "simulator"});
     sub.add_flag("--mirror", options.mirror, "open a desktop window that shows what the wearer sees");
     add_path(sub, "--record", options.record, "write what happens as a session", "DIR");
 }
@@ -120,10 +128,7 @@ void add_import(CLI::App& app, ImportOptions& options) {
            "the log's files")
         ->type_name("")
         ->required();
-    sub.add_option("--from", options.format, "format of the log")
-        ->type_name("")
-        ->required()
-        ->check(CLI::IsMember(names));
+    allow_only(*sub.add_option("--from", options.format, "format of the log")->required(), names);
     add_path(sub, "--out", options.out, "session folder to write", "SESSION", true);
     add_json(sub, options.json);
 }
@@ -141,12 +146,6 @@ void add_settings(CLI::App& app, SettingsOptions& options) {
     sub.add_option("--headset", options.headset, "show this profile's acuity figures too")
         ->type_name("PROFILE");
     add_json(sub, options.json);
-}
-
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
 }
 
 std::string suggestion(const CLI::App& app, const std::string& unknown, bool option) {
@@ -187,6 +186,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     CommandLine line;
     ViewOptions view;
     ReplayOptions replay;
+    BenchOptions bench;
     ImportOptions import;
     DoctorOptions doctor;
     SettingsOptions settings;
@@ -198,15 +198,15 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     app.require_subcommand(1);
     add_view(app, view);
     add_replay(app, replay);
+    add_bench_options(*app.add_subcommand("bench", "measure the papers' tables on this machine's GPU"), bench);
     add_import(app, import);
     add_doctor(app, doctor);
     add_settings(app, settings);
     app.allow_extras();
     for (CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) {
         sub->allow_extras();
-        sub->add_option("--log-level", line.log_level, "how much to say on standard error")
-            ->type_name("")
-            ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+        allow_only(*sub->add_option("--log-level", line.log_level, "how much to say on standard error"),
+                   {"trace", "debug", "info", "warn", "error", "off"});
     }
 
     const auto used = [&]() -> const CLI::App& {
@@ -239,24 +239,11 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     const std::string& name = used().get_name();
     if (name == "view") line.command = std::move(view);
     if (name == "replay") line.command = std::move(replay);
+    if (name == "bench") line.command = std::move(bench);
     if (name == "import") line.command = std::move(import);
     if (name == "doctor") line.command = doctor;
     if (name == "settings") line.command = settings;
     return line;
-}
-
-int run_guarded(std::ostream& errors, const std::function<ExitCode()>& program) {
-    const auto report = [&errors](const std::string& message, ExitCode code) {
-        errors << "foveray: error: " << one_line(message) << std::endl;
-        return static_cast<int>(code);
-    };
-    try {
-        return static_cast<int>(program());
-    } catch (const Fault& fault) {
-        return report(fault.what(), fault.code());
-    } catch (const std::exception& e) {
-        return report(std::string("internal: ") + e.what(), ExitCode::Internal);
-    }
 }
 
 }  // namespace foveray::app

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <iosfwd>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "app/bench/table.h"
 #include "app/commands.h"
 
 namespace foveray::app {
@@ -16,7 +15,7 @@ struct Notice {
 };
 
 using Command =
-    std::variant<Notice, ViewOptions, ReplayOptions, ImportOptions, DoctorOptions, SettingsOptions>;
+    std::variant<Notice, ViewOptions, ReplayOptions, BenchOptions, ImportOptions, DoctorOptions, SettingsOptions>;
 
 struct CommandLine {
     Command command;
@@ -26,9 +25,5 @@ struct CommandLine {
 /// `arguments` are those after the program's name. Throws Fault(BadInput) that names the argument and what
 /// would have been right.
 CommandLine parse_command_line(std::vector<std::string> arguments);
-
-/// Runs `program` and turns what it throws into one line on `errors` and an exit code; every error of foveray
-/// ends here.
-int run_guarded(std::ostream& errors, const std::function<ExitCode()>& program);
 
 }  // namespace foveray::app

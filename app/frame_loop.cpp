@@ -1,6 +1,7 @@
 #include "app/frame_loop.h"
 
 #include <chrono>
+#include <utility>
 
 #include "app/frame_metrics.h"
 #include "app/room_proxies.h"
@@ -30,7 +31,9 @@ void point_gaze(Frame& frame, vec2 pointer) {
 }  // namespace
 
 FrameLoop::FrameLoop(const FrameLoopSetup& setup)
-    : headset_(setup.headset),
+    : device_(setup.device),
+      headset_(setup.headset),
+      scene_(setup.scene),
       camera_(setup.camera),
       every_pixel_(setup.every_pixel),
       acuity_(setup.acuity),
@@ -38,7 +41,7 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
       ring_(setup.device, setup.frames_in_flight),
       textures_(setup.device),
       counters_(setup.device, setup.frames_in_flight),
-      pipeline_(setup.device, textures_, setup.frames_in_flight, setup.scene),
+      pipeline_(make_pipeline(setup.user_shaders)),
       animator_(setup.scene),
       gpu_scene_(setup.device, textures_, setup.scene, setup.frames_in_flight),
       accel_scene_(setup.device, gpu_scene_, pipeline_, setup.frames_in_flight),
@@ -93,6 +96,16 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     ring_.submit();
     headset_.end_frame(frame);
     return {std::move(frame), true, images};
+}
+
+render::RayPipeline FrameLoop::make_pipeline(const render::UserShaders& user_shaders) const {
+    return render::RayPipeline(device_, textures_, ring_.size(), scene_, user_shaders);
+}
+
+void FrameLoop::use(render::RayPipeline pipeline) {
+    wait();
+    accel_scene_.fill_table(pipeline);
+    std::swap(pipeline_, pipeline);  // in place: the stages keep their references to it
 }
 
 passthrough::RoomMoment FrameLoop::room_moment(const Frame& frame) {

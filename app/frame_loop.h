@@ -32,6 +32,7 @@ struct FrameLoopSetup {
     std::optional<Acuity> acuity;  // empty: made from the first frame's views
     bool every_pixel = false;      // --reference
     std::uint32_t frames_in_flight = 1;
+    render::UserShaders user_shaders = {};  // of the scene's user shapes
 };
 
 /// The stages of a frame and the order they run in: docs/architecture.md, "A frame". Replay and view share
@@ -50,6 +51,11 @@ class FrameLoop {
     /// the top left) stands in for the gaze where the headset has no eye tracking. Throws Fault.
     Step step(const Settings& settings, std::optional<vec2> pointer = {});
 
+    /// What the frames could trace with if users' shapes were these. May be called on any thread.
+    render::RayPipeline make_pipeline(const render::UserShaders& user_shaders) const;
+    /// Frames trace with such a pipeline from here on. Waits for those that trace with the old one.
+    void use(render::RayPipeline pipeline);
+
     /// Waits until the GPU has finished everything.
     void wait();
     /// Of the newest frame known to be finished on the GPU; after wait(), of the last step that rendered.
@@ -60,7 +66,9 @@ class FrameLoop {
     passthrough::RoomMoment room_moment(const Frame& frame);
     void collect_metrics(std::uint32_t slot);
 
+    const gpu::Device& device_;
     xr::Headset& headset_;
+    const scene::Scene& scene_;
     passthrough::CameraSource* camera_;
     bool every_pixel_;
     std::optional<Acuity> acuity_;

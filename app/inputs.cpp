@@ -1,8 +1,6 @@
 #include "app/inputs.h"
 
-#include <cstdlib>
-#include <string_view>
-
+#include "app/program.h"
 #include "base/headset_profile.h"
 
 namespace foveray::app {
@@ -17,6 +15,8 @@ Inputs load_inputs(const PictureOptions& options, const Session* session) {
         inputs.scene_file = assets_folder() / "scenes/demo.json";
     }
     inputs.scene = scene::load_scene(inputs.scene_file);
+    inputs.shapes = user_shapes::ShapeStore({.gpu = options.gpu, .validation = validation_wanted()});
+    inputs.user_shaders = inputs.shapes.prepare(inputs.scene);
 
     // The session's calibration is that of the session's camera, not of another one.
     auto calibration = options.calibration;
@@ -29,11 +29,6 @@ Inputs load_inputs(const PictureOptions& options, const Session* session) {
     if (!inputs.camera_name.empty())
         inputs.camera = passthrough::open_camera(inputs.camera_name, calibration);
     return inputs;
-}
-
-bool validation_wanted() {
-    const char* value = std::getenv("FOVERAY_VALIDATION");
-    return value && std::string_view(value) == "1";
 }
 
 }  // namespace foveray::app

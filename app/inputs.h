@@ -8,6 +8,7 @@
 #include "base/session.h"
 #include "passthrough/capture/open_camera.h"
 #include "render/scene/load_scene.h"
+#include "render/user_shapes/shape_store.h"
 
 namespace foveray::app {
 
@@ -15,14 +16,13 @@ namespace foveray::app {
 struct Inputs {
     std::filesystem::path scene_file;
     scene::Scene scene;
-    std::string camera_name;  // empty: none
+    user_shapes::ShapeStore shapes;
+    render::UserShaders user_shaders;  // of the scene's files
+    std::string camera_name;           // empty: none
     std::optional<passthrough::Camera> camera;
 };
 
 /// `session` may be null. Without any scene the demo's is taken. Throws Fault.
 Inputs load_inputs(const PictureOptions& options, const Session* session);
-
-/// Validation layers on: environment variable FOVERAY_VALIDATION=1.
-bool validation_wanted();
 
 }  // namespace foveray::app

@@ -9,6 +9,7 @@
 #include "app/gaze_mark.h"
 #include "app/inputs.h"
 #include "app/interrupt.h"
+#include "app/program.h"
 #include "app/progress.h"
 #include "base/log.h"
 #include "base/staged_folder.h"
@@ -73,13 +74,14 @@ ExitCode run_replay(const ReplayOptions& options) {
     gpu::DeviceOptions device_options;
     device_options.validation = validation_wanted();
     const gpu::Device device(device_options, headset.device_source());
+    const xr::StopAtEnd stop_at_end(headset);
     const bool over_camera = inputs.camera || !options.settings.camera_blend;
     headset.start(device, over_camera ? BlendMode::Opaque : BlendMode::AlphaBlend, options.settings.near_m,
                   options.settings.far_m);
 
     FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
                     inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt, profile.acuity,
-                    options.reference});
+                    options.reference, 1, inputs.user_shaders});
     std::vector<FrameMetrics> frames;
     std::vector<uvec2> view_sizes;
     Video video(out.path(), session.rate_hz);

@@ -36,7 +36,7 @@ std::string default_text(const SettingInfo& info) {
 
 Json setting_json(const SettingInfo& info) {
     Json json = {{"key", info.key}, {"help", info.help}};
-    std::visit([&](auto member) { json["default"] = Settings{}.*member; }, info.member);
+    json["default"] = value_json(Settings{}, info);
     if (is_number(info)) {
         json["minimum"] = info.minimum;
         json["maximum"] = info.maximum;
@@ -53,17 +53,17 @@ Json headset_json(const HeadsetProfile& profile) {
                          {"role", view.role == ViewRole::Context ? "context" : "focus"},
                          {"width", view.size.x},
                          {"height", view.size.y},
-                         {"ppd", view.ppd}});
+                         {"ppd", shortest(view.ppd)}});
     }
     const Acuity& acuity = profile.acuity;
     return {{"name", profile.name},
             {"display_name", profile.display_name},
             {"rate_hz", profile.rate_hz},
             {"acuity",
-             {{"a", acuity.a},
-              {"b", acuity.b},
-              {"cap_ppd", acuity.cap_ppd},
-              {"outer_degrees", acuity.outer_degrees}}},
+             {{"a", shortest(acuity.a)},
+              {"b", shortest(acuity.b)},
+              {"cap_ppd", shortest(acuity.cap_ppd)},
+              {"outer_degrees", shortest(acuity.outer_degrees)}}},
             {"views", views}};
 }
 

@@ -14,6 +14,12 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session he
     session_.events.clear();
 }
 
+void SessionRecorder::set_headset(const HeadsetProfile& profile) {
+    const std::filesystem::path file = folder_.path() / "headset.json";
+    write_headset_profile(file, profile);
+    session_.headset = file.string();
+}
+
 void SessionRecorder::add(const Frame& frame) {
     // A slow machine skips display periods: the recording lasts as long as it did, not as many frames as were
     // drawn.
@@ -37,7 +43,7 @@ void SessionRecorder::add(const Frame& frame) {
 }
 
 void SessionRecorder::finish() {
-    if (session_.frames == 0) return;
+    if (session_.frames == 0 || !knows_headset()) return;
     write_session(folder_.path(), session_);
     folder_.commit();
 }

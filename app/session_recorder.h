@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/frame.h"
+#include "base/headset_profile.h"
 #include "base/session.h"
 #include "base/staged_folder.h"
 
@@ -11,12 +12,15 @@ namespace foveray::app {
 /// Keeps what a headset reports, frame by frame, and writes it as a session folder.
 class SessionRecorder {
   public:
-    /// `header`: headset and inputs; the rate comes from the frames, its streams are ignored. Throws
-    /// Fault(BadInput) when the folder cannot be made.
+    /// `header`: headset and inputs; the rate comes from the frames, its streams are ignored. Its headset may
+    /// be empty until `set_headset`. Throws Fault(BadInput) when the folder cannot be made.
     SessionRecorder(const std::filesystem::path& folder, Session header);
 
+    bool knows_headset() const { return !session_.headset.empty(); }
+    /// A headset that has no profile of its own: it goes into the folder.
+    void set_headset(const HeadsetProfile& profile);
     void add(const Frame& frame);
-    /// Writes the folder; an empty recording leaves nothing.
+    /// Writes the folder; a recording without frames or without a headset leaves nothing.
     void finish();
 
   private:

@@ -6,7 +6,9 @@
 #include "app/inputs.h"
 #include "app/interrupt.h"
 #include "app/mirror/mirror.h"
+#include "app/program.h"
 #include "app/session_recorder.h"
+#include "app/shape_reload.h"
 #include "base/log.h"
 
 namespace foveray::app {
@@ -20,10 +22,10 @@ std::optional<HeadsetProfile> profile_of(const ViewOptions& options, const xr::H
     return std::nullopt;
 }
 
-Session recording_header(const ViewOptions& options, const Inputs& inputs,
-                         const std::optional<HeadsetProfile>& profile) {
+/// `headset`: empty for a runtime's own, which tells its views with the first frame.
+Session recording_header(const ViewOptions& options, const Inputs& inputs, const std::string& headset) {
     Session header;
-    header.headset = options.headset.value_or(profile ? profile->name : "vive-pro-eye");
+    header.headset = headset;
     header.scene = std::filesystem::absolute(inputs.scene_file);
     if (inputs.camera) header.camera = std::filesystem::absolute(inputs.camera_name);
     if (options.calibration) header.calibration = std::filesystem::absolute(*options.calibration);
@@ -38,6 +40,16 @@ std::vector<Mirror::Picture> mirror_pictures(const FrameLoop::Step& step) {
     return pictures;
 }
 
+void record(SessionRecorder& recorder, const xr::Headset& headset, const Frame& frame,
+            const std::optional<HeadsetProfile>& known) {
+    if (!recorder.knows_headset() && frame.head_valid) {
+        HeadsetProfile profile = headset.profile(frame);
+        profile.acuity = known ? known->acuity : acuity_for(frame.views);
+        recorder.set_headset(profile);
+    }
+    recorder.add(frame);
+}
+
 }  // namespace
 
 ExitCode run_view(const ViewOptions& options) {
@@ -48,7 +60,10 @@ ExitCode run_view(const ViewOptions& options) {
     xr::Headset headset(options.runtime, simulator);
     const auto profile = profile_of(options, headset, simulator.profile);
     std::optional<SessionRecorder> recorder;
-    if (options.record) recorder.emplace(*options.record, recording_header(options, inputs, profile));
+    if (options.record) {
+        recorder.emplace(*options.record,
+                         recording_header(options, inputs, headset.is_simulator() ? simulator.profile : ""));
+    }
 
     std::optional<DesktopWindow> window;
     if (options.mirror) window.emplace("foveray");
@@ -59,36 +74,50 @@ ExitCode run_view(const ViewOptions& options) {
     }
     device_options.validation = validation_wanted();
     const gpu::Device device(device_options, headset.device_source());
+    const xr::StopAtEnd stop_at_end(headset);
     Settings settings = options.settings;
     const bool over_camera = inputs.camera || !settings.camera_blend;
     headset.start(device, over_camera ? BlendMode::Opaque : BlendMode::AlphaBlend, settings.near_m,
                   settings.far_m);
     FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
                     inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt,
-                    profile ? std::optional(profile->acuity) : std::nullopt, false, 2});
+                    profile ? std::optional(profile->acuity) : std::nullopt, false, 2,
+                    inputs.user_shaders});
+    ShapeReload reload(inputs.scene, inputs.shapes, inputs.user_shaders,
+                       [&](const render::UserShaders& shaders) { return loop.make_pipeline(shaders); });
     std::optional<Mirror> mirror;
     if (window) mirror.emplace(device, *window);
     log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
 
     catch_interrupts();
     bool exit_requested = false;
-    for (auto state = headset.poll(); state != xr::Headset::State::Ended; state = headset.poll()) {
-        if ((interrupted() || (mirror && mirror->wants_close())) && !exit_requested) {
-            headset.request_exit();
-            exit_requested = true;
-            continue;
+    const auto show_frames = [&] {
+        for (auto state = headset.poll(); state != xr::Headset::State::Ended; state = headset.poll()) {
+            if ((interrupted() || (mirror && mirror->wants_close())) && !exit_requested) {
+                headset.request_exit();
+                exit_requested = true;
+                continue;
+            }
+            if (state == xr::Headset::State::Waiting) {
+                if (mirror) mirror->show({}, {}, false, settings);
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                continue;
+            }
+            if (auto pipeline = reload.take()) loop.use(std::move(*pipeline));
+            const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
+            if (mirror && step.rendered) {
+                mirror->show(mirror_pictures(step), loop.metrics().value_or(FrameMetrics{}),
+                             headset.instance().has_eye_tracking(), settings);
+            }
+            if (recorder) record(*recorder, headset, step.frame, profile);
         }
-        if (state == xr::Headset::State::Waiting) {
-            if (mirror) mirror->show({}, {}, false, settings);
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            continue;
-        }
-        const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
-        if (mirror && step.rendered) {
-            mirror->show(mirror_pictures(step), loop.metrics().value_or(FrameMetrics{}),
-                         headset.instance().has_eye_tracking(), settings);
-        }
-        if (recorder) recorder->add(step.frame);
+    };
+    try {
+        show_frames();
+    } catch (...) {
+        // What was recorded until then is worth keeping.
+        if (recorder) recorder->finish();
+        throw;
     }
     loop.wait();
     headset.stop();

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json.h"
@@ -28,8 +31,7 @@ HeadsetProfile::ViewProfile read_view(const Json& json, ViewRole role, const std
     view.role = role;
     view.size = {json.at("width"), json.at("height")};
     view.fov = read_fov(json.at("fov_degrees"), where);
-    const float tangents = std::tan(view.fov.right) - std::tan(view.fov.left);
-    view.ppd = json.value("ppd", static_cast<float>(view.size.x) / tangents * radians(1.0f));
+    view.ppd = json.value("ppd", centre_ppd(view.fov, view.size.x));
     return view;
 }
 
@@ -44,23 +46,61 @@ bool contains(const Fov& outer, const Fov& inner) {
            inner.up <= outer.up;
 }
 
-std::vector<HeadsetProfile::ViewProfile> read_views(const Json& json, const std::string& where) {
-    const auto context = read_view(json.at("context"), ViewRole::Context, where + "/context");
-    std::vector<HeadsetProfile::ViewProfile> views{context, mirrored(context)};
+/// The context view and, where there is one, the focus view of an eye.
+std::vector<HeadsetProfile::ViewProfile> read_eye(const Json& json, const std::string& where) {
+    std::vector views{read_view(json.at("context"), ViewRole::Context, where + "/context")};
     if (json.contains("focus")) {
-        const auto focus = read_view(json.at("focus"), ViewRole::Focus, where + "/focus");
-        if (!contains(context.fov, focus.fov)) {
+        views.push_back(read_view(json.at("focus"), ViewRole::Focus, where + "/focus"));
+        if (!contains(views[0].fov, views[1].fov)) {
             throw_bad_input(where + "/focus/fov_degrees", "reaches outside the context's", "make it smaller");
         }
-        views.push_back(focus);
-        views.push_back(mirrored(focus));
     }
     return views;
 }
 
+std::vector<HeadsetProfile::ViewProfile> read_views(const Json& json, const std::string& where) {
+    const auto left = read_eye(json, where);
+    auto right = left;
+    if (json.contains("right")) {
+        right = read_eye(json.at("right"), where + "/right");
+        if (right.size() != left.size()) {
+            throw_bad_input(where + "/right", "has other views than the left eye",
+                            "give a focus view to both eyes or to none");
+        }
+        for (auto& view : right) view.eye = Eye::Right;
+    } else {
+        for (auto& view : right) view = mirrored(view);
+    }
+    std::vector<HeadsetProfile::ViewProfile> views;
+    for (std::size_t i = 0; i < left.size(); ++i) views.insert(views.end(), {left[i], right[i]});
+    return views;
+}
+
+double in_degrees(float radians) { return double{radians} * 180.0 / std::numbers::pi; }
+
+Json view_json(const HeadsetProfile::ViewProfile& view) {
+    return {{"width", view.size.x},
+            {"height", view.size.y},
+            {"fov_degrees",
+             {{"left", in_degrees(view.fov.left)},
+              {"right", in_degrees(view.fov.right)},
+              {"up", in_degrees(view.fov.up)},
+              {"down", in_degrees(view.fov.down)}}},
+            {"ppd", shortest(view.ppd)}};
+}
+
+/// `eye`: 0 left, 1 right.
+Json eye_json(const HeadsetProfile& profile, std::size_t eye) {
+    Json json = {{"context", view_json(profile.views[eye])}};
+    if (profile.views.size() > 2) json["focus"] = view_json(profile.views[eye + 2]);
+    return json;
+}
+
+constexpr std::pair<BlendMode, std::string_view> blend_mode_names[] = {
+    {BlendMode::Opaque, "opaque"}, {BlendMode::Additive, "additive"}, {BlendMode::AlphaBlend, "alpha_blend"}};
+
 BlendMode read_blend_mode(const std::string& name) {
-    if (name == "opaque") return BlendMode::Opaque;
-    return name == "additive" ? BlendMode::Additive : BlendMode::AlphaBlend;
+    return std::ranges::find(blend_mode_names, name, [](const auto& entry) { return entry.second; })->first;
 }
 
 std::vector<vec2> read_outline(const Json& json, const Fov& fov, const std::string& where) {
@@ -140,6 +180,33 @@ HeadsetProfile read_headset_profile(const std::string& name_or_file) {
                         "use one of " + profile_names(folder) + ", or the path of a .json file");
     }
     return read_profile_file(file);
+}
+
+void write_headset_profile(const fs::path& file, const HeadsetProfile& profile) {
+    Json json = {{"format", "foveray-headset"},
+                 {"version", 1},
+                 {"display_name", profile.display_name},
+                 {"source", profile.source},
+                 {"rate_hz", profile.rate_hz},
+                 {"ipd_m", shortest(profile.ipd)},
+                 {"eye_tracking", profile.eye_tracking},
+                 {"views", eye_json(profile, 0)},
+                 {"foveated_focus_scale", shortest(profile.foveated_focus_scale)},
+                 {"blend_modes", Json::array()},
+                 {"interaction_profile", profile.interaction_profile},
+                 {"acuity",
+                  {{"a", shortest(profile.acuity.a)},
+                   {"b", shortest(profile.acuity.b)},
+                   {"cap_ppd", shortest(profile.acuity.cap_ppd)},
+                   {"outer_degrees", shortest(profile.acuity.outer_degrees)}}}};
+    json["views"]["right"] = eye_json(profile, 1);
+    for (const BlendMode mode : profile.blend_modes) {
+        json["blend_modes"].push_back(
+            std::ranges::find(blend_mode_names, mode, [](const auto& entry) { return entry.first; })->second);
+    }
+    for (const vec2 point : profile.hidden_outline)
+        json["hidden_outline"].push_back({shortest(point.x), shortest(point.y)});
+    write_json(file, json);
 }
 
 fs::path assets_folder() {

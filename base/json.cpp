@@ -1,6 +1,7 @@
 #include "base/json.h"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 #pragma GCC diagnostic pop
 
 #include "base/error.h"
+#include "base/schema_words.h"
 
 namespace foveray {
 
@@ -54,13 +56,25 @@ void check_json(const Json& document, std::string_view schema_text, const std::f
     while (results.popError(error)) {
         if (error.context.size() > innermost.context.size()) innermost = error;
     }
+    std::vector<std::string> steps;
     std::string place;
     for (const std::string& step : innermost.context) {
         if (step == "<root>") continue;
-        place += "/" + step.substr(step.front() == '[' ? 1 : 0, step.size() - (step.front() == '[' ? 2 : 0));
+        steps.push_back(step.starts_with('[') ? step.substr(1, step.size() - 2) : step);
+        place += "/" + steps.back();
     }
-    throw_bad_input(file.string() + ": " + (place.empty() ? "/" : place), innermost.description,
-                    "see the JSON Schema in docs/");
+    const Complaint complaint =
+        complaint_at(schema_json, document, steps)
+            .value_or(Complaint{innermost.description, "see the format's JSON Schema"});
+    throw_bad_input(file.string() + ": " + (place.empty() ? "/" : place), complaint.what, complaint.remedy);
+}
+
+Json shortest(float value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+    double number = 0.0;
+    std::from_chars(text, end, number);
+    return number;
 }
 
 void write_json(const std::filesystem::path& file, const Json& document) {

@@ -93,6 +93,9 @@ auto last_at_or_before(const std::vector<Sample>& samples, Nanoseconds time) {
     return it == samples.begin() ? samples.end() : it - 1;
 }
 
+/// A session's headset is a profile's name or file.
+bool is_file(const std::string& headset) { return fs::path(headset).extension() == ".json"; }
+
 class CsvWriter {
   public:
     CsvWriter(const fs::path& file, std::string_view header) : file_(file), out_(file) {
@@ -173,6 +176,8 @@ Session read_session(const fs::path& folder) {
                             "use the foveray that wrote it");
         }
         session.headset = json.at("headset");
+        if (is_file(session.headset))
+            session.headset = fs::absolute(folder / session.headset).lexically_normal().string();
         session.rate_hz = json.at("rate_hz");
         session.frames = json.at("frames");
         if (!(session.rate_hz > 0.0 && session.rate_hz <= 1000.0)) {
@@ -213,13 +218,15 @@ Session read_session(const fs::path& folder) {
 
 void write_session(const fs::path& folder, const Session& session) {
     fs::create_directories(folder);
-    Json json = {{"format", "foveray-session"},
-                 {"version", format_version},
-                 {"units", {{"time", "ns"}, {"length", "m"}, {"rotation", "unit quaternion"}}},
-                 {"headset", session.headset},
-                 {"rate_hz", session.rate_hz},
-                 {"frames", session.frames},
-                 {"recorded", Json::array()}};
+    Json json = {
+        {"format", "foveray-session"},
+        {"version", format_version},
+        {"units", {{"time", "ns"}, {"length", "m"}, {"rotation", "unit quaternion"}}},
+        {"headset", is_file(session.headset) ? fs::proximate(session.headset, folder).generic_string()
+                                             : session.headset},
+        {"rate_hz", session.rate_hz},
+        {"frames", session.frames},
+        {"recorded", Json::array()}};
     const auto put_path = [&](const char* key, const std::optional<fs::path>& path) {
         if (path) json[key] = fs::proximate(*path, folder).generic_string();
     };

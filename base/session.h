@@ -32,8 +32,8 @@ struct Session {
     };
 
     std::filesystem::path folder;  // empty for one made in memory
-    std::string headset = "ci";    // profile it was recorded with
-    double rate_hz = 0.0;          // frames a second of the recording
+    std::string headset = "ci";  // profile it was recorded with; a .json file's path is absolute once loaded
+    double rate_hz = 0.0;        // frames a second of the recording
     std::uint64_t frames = 0;
     // What the session was recorded with; paths absolute once loaded. A command line overrides them.
     std::optional<std::filesystem::path> scene, camera, calibration;

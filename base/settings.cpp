@@ -27,9 +27,22 @@ constexpr std::array table = std::to_array<SettingInfo>({
      0,
      2000,
      {},
-     "a of ppd(e) = a / (e + b), e in degrees; 0: the headset's"},
-    {"foveation.acuity_b", &S::acuity_b, 0, 60, {}, "b of ppd(e), degrees; 0: the headset's"},
-    {"foveation.cap_ppd", &S::cap_ppd, 0, 500, {}, "most pixels per degree worth tracing; 0: the headset's"},
+     "a of ppd(e) = a / (e + b), e in degrees; 0: the headset's",
+     "the headset's"},
+    {"foveation.acuity_b",
+     &S::acuity_b,
+     0,
+     60,
+     {},
+     "b of ppd(e), degrees; 0: the headset's",
+     "the headset's"},
+    {"foveation.cap_ppd",
+     &S::cap_ppd,
+     0,
+     500,
+     {},
+     "most pixels per degree worth tracing; 0: the headset's",
+     "the headset's"},
     {"foveation.resolution_scale", &S::resolution_scale, 0.1, 4, {}, "scales both axes of the polar image"},
     {"foveation.angular_ratio", &S::angular_ratio, 0.1, 4, {}, "angular samples per radial sample"},
     {"foveation.gaze_tracking", &S::gaze_tracking, 0, 1, {}, "follow the eyes; off: a fixed, wider fovea"},
@@ -128,6 +141,11 @@ void set(Settings& settings, sv assignment) {
         }
         settings.*std::get<std::string S::*>(info.member) = value;
     }
+}
+
+Json value_json(const Settings& settings, const SettingInfo& info) {
+    if (const auto* f = std::get_if<float S::*>(&info.member)) return shortest(settings.*(*f));
+    return std::visit([&](auto member) { return Json(settings.*member); }, info.member);
 }
 
 std::string value_text(const Settings& settings, const SettingInfo& info) {

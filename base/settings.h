@@ -5,6 +5,8 @@
 #include <string_view>
 #include <variant>
 
+#include "base/json.h"
+
 namespace foveray {
 
 /// Everything that --set KEY=VALUE may change while the program runs. Plain values; `settings_table`
@@ -48,11 +50,14 @@ struct SettingInfo {
     double minimum, maximum;                    // numbers
     std::span<const std::string_view> choices;  // strings
     std::string_view help;
+    std::string_view zero = {};  // what 0 stands for, where it is no number of its own
 };
 
 std::span<const SettingInfo> settings_table();
 /// `assignment` is "key=value". Throws Fault(BadInput) naming the nearest key, the range or the choices.
 void set(Settings& settings, std::string_view assignment);
+/// The value with its own type; floats as short as they read back.
+Json value_json(const Settings& settings, const SettingInfo& info);
 /// The value as it would be written after "key=".
 std::string value_text(const Settings& settings, const SettingInfo& info);
 

@@ -31,4 +31,10 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     return it == candidates.end() ? std::string_view() : *it;
 }
 
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
 }  // namespace foveray

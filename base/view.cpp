@@ -17,6 +17,10 @@ vec2 uv_of(const Fov& fov, vec3 direction) {
     return {(x - l) / (r - l), (y - u) / (d - u)};
 }
 
+float centre_ppd(const Fov& fov, std::uint32_t width) {
+    return static_cast<float>(width) / (std::tan(fov.right) - std::tan(fov.left)) * radians(1.0f);
+}
+
 mat4 clip_from_eye(const Fov& fov, float near_z, float far_z) {
     const float l = std::tan(fov.left), r = std::tan(fov.right);
     const float u = std::tan(fov.up), d = std::tan(fov.down);

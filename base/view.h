@@ -35,6 +35,8 @@ struct View {
 vec3 direction_at(const Fov& fov, vec2 uv);
 /// The image position of a direction in the eye's frame; meaningless unless direction.z < 0.
 vec2 uv_of(const Fov& fov, vec3 direction);
+/// Pixels a degree where the view's axis meets its image plane, for an image of `width` pixels.
+float centre_ppd(const Fov& fov, std::uint32_t width);
 /// Depth in [0, 1] (0 near, 1 far), y of clip space down as in Vulkan.
 mat4 clip_from_eye(const Fov& fov, float near_z, float far_z);
 

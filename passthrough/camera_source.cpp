@@ -17,9 +17,4 @@ CameraFramePtr CameraSource::at(Nanoseconds time) {
     return newest_.get();
 }
 
-void CameraSource::publish(const CameraFramePtr& frame) {
-    newest_.push(frame);
-    for (FrameSink* sink : sinks_) sink->push(frame);
-}
-
 }  // namespace foveray::passthrough

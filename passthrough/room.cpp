@@ -21,7 +21,7 @@ std::vector<shared::RoomProxy> largest(std::span<const shared::RoomProxy> surfac
               proxies.size());
     std::stable_sort(proxies.begin(), proxies.end(),
                      [](const auto& a, const auto& b) { return area(a) > area(b); });
-    proxies.resize(shared::MAX_PROXIES);
+    proxies.erase(proxies.begin() + shared::MAX_PROXIES, proxies.end());
     return proxies;
 }
 

@@ -33,7 +33,7 @@ RayPipeline::Geometry catcher_record(const GpuScene& scene, std::uint32_t id, co
 }
 
 RayPipeline::Geometry shape_record(const GpuScene& scene, scene::ShapeId id, std::span<const float> values,
-                                   const RayPipeline& pipeline) {
+                                   float seconds, const RayPipeline& pipeline) {
     const scene::Shape& shape = scene.scene().shapes[id];
     shared::ShapeHeader header{};
     header.materials = scene.materials();
@@ -41,14 +41,14 @@ RayPipeline::Geometry shape_record(const GpuScene& scene, scene::ShapeId id, std
     header.material = shape.material;
     header.shape = id;
     header.flags = scene.scene().materials[shape.material].double_sided ? 0 : shared::SHAPE_SINGLE_SIDED;
-    return pipeline.shapes().geometry(shape, values, header);
+    return pipeline.shapes().geometry(shape, values, header, scene.shapes(), seconds);
 }
 
 RayPipeline::Range table_range(const GpuScene& scene, const GpuStructure& structure,
                                const RayPipeline& pipeline) {
     if (structure.kind == GpuStructure::Kind::Shape) {
-        return {
-            shape_record(scene, structure.source, scene.scene().shapes[structure.source].values, pipeline)};
+        return {shape_record(scene, structure.source, scene.scene().shapes[structure.source].values, 0.0f,
+                             pipeline)};
     }
     RayPipeline::Range range;
     for (const GpuGeometry& g : structure.geometries) {
@@ -72,10 +72,15 @@ Sides sides_of(const GpuScene& scene, const GpuStructure& structure, const GpuGe
 }
 
 gpu::BoxGeometry box_of(const GpuScene& scene, scene::ShapeId id) {
-    const scene::Material& material = scene.scene().materials[scene.scene().shapes[id].material];
-    return {.boxes = scene.shapes().box(id),
-            .box_count = 1,
-            .opaque = material.alpha_mode == scene::AlphaMode::Opaque};
+    const scene::Shape& shape = scene.scene().shapes[id];
+    const auto is_opaque = [&](scene::MaterialId material) {
+        return scene.scene().materials[material].alpha_mode == scene::AlphaMode::Opaque;
+    };
+    bool opaque = is_opaque(shape.material) && !shape.voxels;  // coarse voxels cover their place in part
+    for (const scene::CsgLeaf& leaf : shape.solid.leaves) {
+        opaque &= is_opaque(leaf.material.value_or(shape.material));
+    }
+    return {.boxes = scene.shapes().box(id), .box_count = 1, .opaque = opaque};
 }
 
 }  // namespace
@@ -116,6 +121,8 @@ AccelScene::AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipe
     }
 }
 
+void AccelScene::fill_table(RayPipeline& pipeline) const { pipeline.tracer().set_table(table_); }
+
 void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuSceneFrame& frame,
                         RayPipeline& pipeline) {
     const auto stage = cmd.stage("acceleration");
@@ -147,13 +154,17 @@ void AccelScene::update_structures(const gpu::Commands& cmd, const GpuSceneFrame
     std::vector<gpu::BottomLevelUpdate> updates;
     bool records_changed = false;
     for (std::size_t i = 0; i < structures_.size(); ++i) {
-        if (!frame.structure_changed[i]) continue;
-        // The first time too: what was built at the start were the undeformed vertices.
-        const bool refit = structures_[i].updates++ % rebuild_period != 0;
-        updates.push_back({&structures_[i].level, structures_[i].geometries, refit});
+        if (frame.structure_changed[i]) {
+            // The first time too: what was built at the start were the undeformed vertices.
+            const bool refit = structures_[i].updates++ % rebuild_period != 0;
+            updates.push_back({&structures_[i].level, structures_[i].geometries, refit});
+        }
         const GpuStructure& source = scene_.structures()[i];
         if (source.kind != GpuStructure::Kind::Shape) continue;
-        table_[i] = {shape_record(scene_, source.source, frame.shapes[source.source].values, pipeline)};
+        const scene::Shape& shape = scene_.scene().shapes[source.source];
+        if (!frame.structure_changed[i] && !pipeline.shapes().uses_time(shape)) continue;
+        table_[i] = {
+            shape_record(scene_, source.source, frame.shapes[source.source].values, frame.seconds, pipeline)};
         records_changed = true;
     }
     if (!updates.empty()) gpu::update_bottom_levels(cmd, updates);

@@ -23,10 +23,17 @@ class AccelScene {
     /// scene must outlive this.
     AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipeline& pipeline, std::uint32_t slots);
 
+    /// Makes ready another pipeline of the same scene, to take the place of the one that was recorded with.
+    void fill_table(RayPipeline& pipeline) const;
+
     /// Stage "acceleration". Makes the frame's structure and points the pipeline's slot at it: traces may
     /// follow.
     void record(const gpu::Commands& cmd, std::uint32_t slot, const GpuSceneFrame& frame,
                 RayPipeline& pipeline);
+
+    /// What the shader table holds, a range a structure, as of the last record().
+    const std::vector<RayPipeline::Range>& table() const { return table_; }
+    const gpu::TopLevel& top_level() const { return top_level_; }
 
   private:
     struct Structure {

@@ -171,7 +171,8 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
     scene_data_.record(cmd, slot, gpu::bytes_of(data));
     cmd.barrier(Access::TransferWrite, Access::RayTracingRead);
     cmd.barrier(Access::TransferWrite, Access::ComputeRead);
-    return {scene_data_.address(), instances_, structure_changed_, changes.shapes};
+    return {scene_data_.address(), instances_, structure_changed_, changes.shapes,
+            static_cast<float>(to_seconds(changes.time))};
 }
 
 }  // namespace foveray::render

@@ -42,6 +42,7 @@ struct GpuSceneFrame {
     std::span<const std::uint8_t>
         structure_changed;  // by structure: its vertices or box are not those of the frame before
     std::span<const scene::ShapeState> shapes;  // by shape id
+    float seconds = 0.0f;                       // session time
 };
 
 /// A scene on the GPU: uploaded once, then each frame brought to the state that the animator gives.

@@ -11,7 +11,8 @@ vk::AabbPositionsKHR box_of(const scene::Aabb& b) {
 
 }  // namespace
 
-GpuShapes::GpuShapes(gpu::Uploader& uploader, const scene::Scene& scene) {
+GpuShapes::GpuShapes(gpu::Uploader& uploader, const scene::Scene& scene)
+    : blends_(uploader, scene), solids_(uploader, scene), voxels_(uploader, scene) {
     std::vector<vk::AabbPositionsKHR> boxes;
     for (const scene::Shape& shape : scene.shapes) boxes.push_back(box_of(bounds_of(shape, shape.values)));
     if (!boxes.empty()) boxes_ = uploader.buffer("shape boxes", gpu::range_bytes(boxes), gpu::build_input);

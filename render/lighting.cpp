@@ -52,8 +52,10 @@ LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingIn
     // Earlier frames may still read the samples; earlier sub-samples wrote them.
     cmd.barrier(Access::ComputeRead, Access::RayTracingWrite);
     cmd.barrier(Access::RayTracingWrite, Access::RayTracingWrite);
-    constexpr std::uint32_t row = 4096;  // samples in a row of the launch
-    tracer_.trace(cmd, lighting_, push, {row, (input.grid.sample_count + row - 1) / row, 1});
+    for (const SampleBlock& block : input.grid.blocks) {
+        push.first_sample = block.first;
+        tracer_.trace(cmd, lighting_, push, {block.width, block.height, 1});
+    }
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
     return {samples_.address(), &samples_};

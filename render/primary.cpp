@@ -4,11 +4,6 @@
 #include "shaders/shared/surface.h"
 
 namespace foveray::render {
-namespace {
-
-constexpr std::uint32_t pixels_in_a_row = 1024;  // of the launch; views of any width share it
-
-}  // namespace
 
 PrimaryStage::PrimaryStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
                            engine::RayGeneration primary)
@@ -26,10 +21,10 @@ Surfaces PrimaryStage::record(const gpu::Commands& cmd, const SampleGrid& grid, 
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead}) {
         cmd.barrier(read, Access::RayTracingWrite);
     }
-    const std::uint32_t row = grid.kind == shared::GRID_POLAR ? grid.polar.width : pixels_in_a_row;
-    const shared::PrimaryPush push{grid.at(sub_sample), surfaces_.address(), counters, grid.sample_count,
-                                   row};
-    tracer_.trace(cmd, primary_, push, {row, (grid.sample_count + row - 1) / row, 1});
+    for (const SampleBlock& block : grid.blocks) {
+        const shared::PrimaryPush push{grid.at(sub_sample), surfaces_.address(), counters, block.first, 0};
+        tracer_.trace(cmd, primary_, push, {block.width, block.height, 1});
+    }
     cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     return {surfaces_.address(), grid.sample_count, &surfaces_};

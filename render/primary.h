@@ -21,8 +21,8 @@ class PrimaryStage {
     PrimaryStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
                  engine::RayGeneration primary);
 
-    /// Stage "primary". The tracer must be prepared for the frame. `counters`: uint[RAY_COUNTER_SLOTS *
-    /// RAY_COUNTER_KINDS], to which the rays are added. Orders itself after earlier passes' reads of the
+    /// Stage "primary". The tracer must be prepared for the frame. `counters`: uint[RAY_COUNTER_KINDS *
+    /// RAY_COUNTER_SLOTS], to which the rays are added. Orders itself after earlier passes' reads of the
     /// surfaces; ray tracing and compute shaders recorded afterwards see them. They last until the next
     /// record().
     Surfaces record(const gpu::Commands& cmd, const SampleGrid& grid, std::uint32_t sub_sample,

@@ -33,7 +33,7 @@ RayCounts RayCounters::counts(std::uint32_t slot) const {
     slots_[slot].invalidate();
     RayCounts counts{};
     const auto values = slots_[slot].mapped_as<std::uint32_t>();
-    for (std::size_t i = 0; i < values.size(); ++i) counts[i % counts.size()] += values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) counts[i / shared::RAY_COUNTER_SLOTS] += values[i];
     return counts;
 }
 

@@ -19,7 +19,7 @@ class RayCounters {
 
     vk::DeviceAddress address() const {
         return counters_.address();
-    }  // uint[RAY_COUNTER_SLOTS][RAY_COUNTER_KINDS]
+    }  // uint[RAY_COUNTER_KINDS][RAY_COUNTER_SLOTS]
     /// Before the frame's first ray.
     void clear(const gpu::Commands& cmd) const;
     /// After its last one.

@@ -4,18 +4,18 @@
 
 namespace foveray::render {
 
-RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene) {
+RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const UserShaders& users) {
     using engine::HitGroup;
     using engine::RayType;
     engine::SceneProgram program("scene", RayType{"surface", "render/surface.rmiss"},
                                  RayType{"shadow", "render/shadow.rmiss"});
-    const ShapeTypes shapes(program, scene);
+    const ShapeTypes shapes(program, scene, users);
     Declared d{std::move(program), shapes, {}, {}, {}, {}, {}};
     d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
         "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
-        HitGroup{"render/shadow.rchit", "render/shadow.rahit", ""});
+        HitGroup{"", "render/shadow.rahit", ""});
     d.catchers = d.program.add_geometry_type<shared::CatcherRecord>(
-        "catchers", HitGroup{"render/catcher.rchit", "", ""}, HitGroup{"render/shadow.rchit", "", ""});
+        "catchers", HitGroup{"render/catcher.rchit", "", ""}, HitGroup{"", "", ""});
     d.fixation = d.program.add_ray_generation("render/fixation.rgen");
     d.primary = d.program.add_ray_generation("render/primary.rgen");
     d.lighting = d.program.add_ray_generation("render/lighting.rgen");
@@ -23,8 +23,8 @@ RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene) {
 }
 
 RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
-                         const scene::Scene& scene)
-    : RayPipeline(device, textures, slots, declare(scene)) {}
+                         const scene::Scene& scene, const UserShaders& users)
+    : RayPipeline(device, textures, slots, declare(scene, users)) {}
 
 RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                          Declared declared)

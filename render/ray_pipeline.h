@@ -16,9 +16,9 @@ class RayPipeline {
     using Range = engine::SceneRayTracer::Range;
 
     /// `slots`: frames in flight. The texture table must outlive the pipeline. `scene`: what the pipeline has
-    /// shaders for is what is in it.
+    /// shaders for is what is in it. `users`: of its user shapes.
     RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
-                const scene::Scene& scene);
+                const scene::Scene& scene, const UserShaders& users = {});
 
     Geometry triangles(const shared::TriangleRecord& record) const;
     /// A real surface: found by surface rays, invisible itself.
@@ -41,7 +41,7 @@ class RayPipeline {
         engine::GeometryType<shared::CatcherRecord> catchers;
         engine::RayGeneration fixation, primary, lighting;
     };
-    static Declared declare(const scene::Scene& scene);
+    static Declared declare(const scene::Scene& scene, const UserShaders& users);
 
     RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                 Declared declared);

@@ -15,12 +15,19 @@ namespace {
 
 constexpr vk::DeviceSize mask_bytes = hidden_mask_words * sizeof(std::uint32_t);
 
-/// Positions inside a pixel that cover it evenly however many are taken: Roberts' R2 sequence, from the
-/// centre on.
-vec2 sub_sample_position(std::uint32_t index) {
-    constexpr double g = 1.32471795724474602596;
-    const double x = 0.5 + index / g, y = 0.5 + index / (g * g);
-    return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
+/// Positions that cover a pixel evenly however many are taken: Roberts' R2 sequence, moved so that their mean is the
+/// pixel's centre and the picture stays where it is.
+std::vector<vec2> sub_sample_positions(std::uint32_t count) {
+    std::vector<vec2> positions;
+    vec2 sum(0.0f);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        constexpr double g = 1.32471795724474602596;
+        const double x = 0.5 + i / g, y = 0.5 + i / (g * g);
+        positions.emplace_back(static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y)));
+        sum += positions.back();
+    }
+    for (vec2& position : positions) position += 0.5f - sum / static_cast<float>(count);
+    return positions;
 }
 
 }  // namespace
@@ -111,24 +118,47 @@ SampleGrid SamplingStage::record(const gpu::Commands& cmd, std::uint32_t slot_in
         view = view_params(views[i], input.world_from_stage);
         view.hidden_mask = hidden_mask(slot, i, views[i].fov, input.hidden);
         view.first_sample = input.every_pixel ? grid.sample_count : view.eye * eye_samples;
-        if (input.every_pixel) grid.sample_count += view.size.x * view.size.y;
+        if (!input.every_pixel) continue;
+        grid.blocks.push_back({grid.sample_count, view.size.x, view.size.y});
+        grid.sample_count += view.size.x * view.size.y;
     }
-    if (!input.every_pixel) grid.sample_count = 2 * eye_samples;
+    if (!input.every_pixel) {
+        grid.blocks = {{0, grid.polar.width, grid.polar.height},
+                       {eye_samples, grid.polar.width, grid.polar.height}};
+        grid.sample_count = 2 * eye_samples;
+    }
     params.sample_count = grid.sample_count;
 
-    const vk::DeviceSize bytes = grid.sub_sample_count * sizeof(params);
-    if (slot.grids.size() < bytes) {
-        slot.grids =
-            gpu::Buffer(device_, "sample grids " + std::to_string(slot_index), bytes, gpu::Residence::Upload);
-    }
-    grid.grids = slot.grids.address();
+    std::vector<shared::SampleGrid> sub_samples(grid.sub_sample_count, params);
+    const std::vector<vec2> positions = sub_sample_positions(grid.sub_sample_count);
     for (std::uint32_t i = 0; i < grid.sub_sample_count; ++i) {
-        params.sub_sample = i;
-        params.jitter = sub_sample_position(i);
-        slot.grids.write(gpu::bytes_of(params), i * sizeof(params));
+        sub_samples[i].sub_sample = i;
+        sub_samples[i].jitter = positions[i];
     }
+    grid.grids = upload_grids(cmd, slot, sub_samples);
     record_fixation(cmd, slot, input, grid);
     return grid;
+}
+
+// Every ray reads its grid, which must not be in the CPU's memory then.
+vk::DeviceAddress SamplingStage::upload_grids(const gpu::Commands& cmd, Slot& slot,
+                                              std::span<const shared::SampleGrid> grids) {
+    using gpu::Access;
+    const vk::DeviceSize bytes = grids.size_bytes();
+    if (slot.grid_staging.size() < bytes) {
+        slot.grid_staging = gpu::Buffer(device_, "staging for sample grids", bytes, gpu::Residence::Upload);
+    }
+    if (grids_.size() < bytes) {
+        device_.vk().waitIdle();  // earlier frames still read what is replaced
+        grids_ = gpu::Buffer(device_, "sample grids", bytes, gpu::Residence::Device);
+    }
+    slot.grid_staging.write(std::as_bytes(grids));
+    for (const Access read : {Access::RayTracingRead, Access::ComputeRead})
+        cmd.barrier(read, Access::TransferWrite);
+    cmd->copyBuffer(slot.grid_staging.vk(), grids_.vk(), vk::BufferCopy(0, 0, bytes));
+    for (const Access read : {Access::RayTracingRead, Access::ComputeRead})
+        cmd.barrier(Access::TransferWrite, read);
+    return grids_.address();
 }
 
 void SamplingStage::record_fixation(const gpu::Commands& cmd, Slot& slot, const SamplingInput& input,

@@ -15,12 +15,20 @@
 
 namespace foveray::render {
 
+/// Samples that lie in a rectangle, row by row: an eye's polar image (a row a circle's angle), or a view's
+/// pixels. Stages launch their rays block by block, so that rays traced together are neighbours in both
+/// directions.
+struct SampleBlock {
+    std::uint32_t first = 0, width = 0, height = 0;
+};
+
 /// Which directions a frame samples, as the later stages take it.
 struct SampleGrid {
     vk::DeviceAddress grids = 0;  // shared::SampleGrid[sub_sample_count]
     std::uint32_t kind = shared::GRID_POLAR;
     std::uint32_t sample_count = 0;      // of all eyes or views, culled ones included
     std::uint32_t sub_sample_count = 1;  // passes over the grid, to be averaged; 1 for polar grids
+    std::vector<SampleBlock> blocks;     // all samples, in order
     shared::PolarMap polar{};
 
     vk::DeviceAddress at(std::uint32_t sub_sample) const {
@@ -71,12 +79,14 @@ class SamplingStage {
         std::uint64_t change = 0;  // counts what the words were set to
     };
     struct Slot {
-        gpu::Buffer grids, masks, gaze_frames;
+        gpu::Buffer grid_staging, masks, gaze_frames;
         std::array<std::uint64_t, shared::MAX_VIEWS> mask_change{};
     };
 
     vk::DeviceAddress hidden_mask(Slot& slot, std::size_t view, const Fov& fov,
                                   std::span<const HiddenMesh> hidden);
+    vk::DeviceAddress upload_grids(const gpu::Commands& cmd, Slot& slot,
+                                   std::span<const shared::SampleGrid> grids);
     void record_fixation(const gpu::Commands& cmd, Slot& slot, const SamplingInput& input,
                          const SampleGrid& grid);
 
@@ -85,7 +95,7 @@ class SamplingStage {
     engine::RayGeneration fixation_;
     std::vector<Slot> slots_;
     std::array<Mask, shared::MAX_VIEWS> masks_;
-    gpu::Buffer gaze_frames_, state_;
+    gpu::Buffer grids_, gaze_frames_, state_;
     bool started_ = false;
     Nanoseconds last_time_ = 0;
 };

@@ -22,7 +22,7 @@ esac
 
 packages=(
     build-essential cmake ninja-build pkg-config
-    libvulkan-dev libvulkan1 vulkan-validationlayers glslang-tools libvulkan-memory-allocator-dev mesa-vulkan-drivers
+    libvulkan-dev libvulkan1 vulkan-validationlayers glslang-tools glslang-dev libvulkan-memory-allocator-dev mesa-vulkan-drivers
     libopenxr-dev libopenxr-loader1
     libglm-dev nlohmann-json3-dev libvalijson-dev libspdlog-dev libcli11-dev libtinygltf-dev libstb-dev libpng-dev
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-calib3d-dev

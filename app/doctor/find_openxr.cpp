@@ -31,7 +31,8 @@ Finding find_system_runtime() {
     const std::filesystem::path manifest = xr::system_runtime_manifest();
     if (manifest.empty()) {
         return {State::Optional, subject, "none is active; foveray uses its simulated headset",
-                "install your headset's runtime, or Monado: apt-get install monado"};
+                "install your headset's runtime, or Monado (Debian 13: apt-get install libopenxr1-monado "
+                "monado-service)"};
     }
     try {
         return {State::Good, subject, describe_headset() + " (" + manifest.string() + ")", ""};

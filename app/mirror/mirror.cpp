@@ -83,12 +83,11 @@ void Mirror::init_imgui() {
     info.MinImageCount = 2;
     info.ImageCount = std::max(2u, swapchain_.image_count());
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
-    info.CheckVkResultFn = [](VkResult result) { vk::resultCheck(vk::Result(result), "Dear ImGui"); };
-#if IMGUI_VERSION_NUM >= 19020
-    info.RenderPass = swapchain_.render_pass();
-    ImGui_ImplVulkan_Init(&info);
-#else
+    info.CheckVkResultFn = [](VkResult result) {
+        if (result < 0) throw vk::SystemError(vk::make_error_code(vk::Result(result)), "Dear ImGui");
+    };
     ImGui_ImplVulkan_Init(&info, swapchain_.render_pass());
+#if IMGUI_VERSION_NUM < 19000  // later ones upload their font by themselves
     gpu::submit_and_wait(device_,
                          [](const gpu::Commands& cmd) { ImGui_ImplVulkan_CreateFontsTexture(*cmd.vk()); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();

@@ -63,7 +63,10 @@ void draw_setting(Settings& settings, const SettingInfo& info, const std::string
         const bool wide = low >= 0.0f && high > 50.0f * std::max(low, 1.0f);
         const ImGuiSliderFlags flags =
             ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : 0);
-        ImGui::SliderFloat(label.c_str(), &(settings.*(*f)), low, high, "%.3g", flags);
+        float& value = settings.*(*f);
+        const bool by_name = value == 0.0f && !info.zero.empty();
+        ImGui::SliderFloat(label.c_str(), &value, low, high,
+                           by_name ? std::string(info.zero).c_str() : "%.3g", flags);
     } else if (const auto* i = std::get_if<int Settings::*>(&info.member)) {
         ImGui::SliderInt(label.c_str(), &(settings.*(*i)), static_cast<int>(low), static_cast<int>(high),
                          "%d", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);

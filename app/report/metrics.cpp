@@ -44,7 +44,7 @@ Json statistics(std::span<const FrameMetrics> frames, Get get) {
 Json settings_json(const Settings& settings) {
     Json json = Json::object();
     for (const SettingInfo& info : settings_table()) {
-        std::visit([&](auto member) { json[std::string(info.key)] = settings.*member; }, info.member);
+        json[std::string(info.key)] = value_json(settings, info);
     }
     return json;
 }

@@ -39,10 +39,10 @@ class RayTracer {
         std::vector<std::uint32_t> counts;
         for (const Range& range : ranges) counts.push_back(static_cast<std::uint32_t>(range.size()));
         auto offsets = record_offsets(counts, ray_type_count);
-        const auto entries = program_.entries(ranges);
+        entries_ = program_.entries(ranges);
         std::vector<RawEntry> raw;
-        raw.reserve(entries.size());
-        for (const auto& entry : entries) {
+        raw.reserve(entries_.size());
+        for (const auto& entry : entries_) {
             raw.push_back(
                 {entry.hit_group, std::visit([](const auto& r) { return gpu::bytes_of(r); }, entry.record)});
         }
@@ -69,15 +69,34 @@ class RayTracer {
 
     const TableLayout& layout() const { return tracer_.layout(); }
 
+    /// What a ray of that type finds at a geometry of an instance with that record offset: the entry of the
+    /// newest table by the formula that shaders use. Throws Fault(Internal) when there is none.
+    const typename Program::Entry& entry(std::uint32_t record_offset, std::uint32_t geometry,
+                                         std::uint32_t ray_type) const {
+        const std::uint64_t index =
+            std::uint64_t{record_offset} + std::uint64_t{ray_type_count} * geometry + ray_type;
+        if (ray_type >= ray_type_count || index >= entries_.size() || record_offset % ray_type_count != 0) {
+            throw Fault(ExitCode::Internal, "program \"" + program_.name() + "\"",
+                        "the shader table has " + std::to_string(entries_.size()) + " hit records for " +
+                            std::to_string(ray_type_count) + " ray types, none for record offset " +
+                            std::to_string(record_offset) + ", geometry " + std::to_string(geometry) +
+                            ", ray type " + std::to_string(ray_type),
+                        "take the offset from set_table");
+        }
+        return entries_[index];
+    }
+
   private:
     static gpu::RayTracingPipelineInfo pipeline_info(const Program& program) {
-        gpu::RayTracingPipelineInfo info{program.name(), program.ray_generation(), {}, program.hit_groups()};
+        gpu::RayTracingPipelineInfo info{
+            program.name(), program.ray_generation(), {}, program.hit_groups(), program.own_shaders()};
         for (const RayType& type : program.ray_types()) info.miss.push_back(type.miss_shader);
         return info;
     }
 
     Program program_;
     TableTracer tracer_;
+    std::vector<typename Program::Entry> entries_;
 };
 
 }  // namespace foveray::engine

@@ -4,6 +4,7 @@
 #include "shaders/shared/ray_types.h"
 #include "shaders/shared/scene.h"
 #include "shaders/shared/shapes.h"
+#include "shaders/shared/voxels.h"
 
 namespace foveray::engine {
 
@@ -23,7 +24,9 @@ namespace foveray::engine {
 ///     tracer.trace(cmd, primary, push, {width, height, 1});
 template <template <std::uint32_t, class...> class Of>
 using WithSceneRecords = Of<shared::RAY_TYPE_COUNT, shared::TriangleRecord, shared::CatcherRecord,
-                            shared::SphereRecord, shared::BoxRecord>;
+                            shared::SphereRecord, shared::BoxRecord, shared::OrientedBoxRecord,
+                            shared::PlaneRecord, shared::CsgRecord, shared::UserRecord, shared::VoxelRecord, shared::JuliaRecord,
+                            shared::MandelbulbRecord, shared::BlendRecord>;
 using SceneProgram = WithSceneRecords<Program>;
 using SceneRayTracer = WithSceneRecords<RayTracer>;
 

@@ -33,7 +33,7 @@ TableCounts counts_of(const gpu::RayTracingPipelineInfo& info) {
 
 TableTracer::TableTracer(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                          const gpu::RayTracingPipelineInfo& info, std::uint32_t record_size)
-    : device_(device),
+    : device_(&device),
       name_(info.name),
       counts_(counts_of(info)),
       record_size_(record_size),
@@ -52,7 +52,7 @@ TableTracer::TableTracer(const gpu::Device& device, const gpu::TextureTable& tex
 
 void TableTracer::set_entries(std::span<const RawEntry> entries) {
     counts_.hit = static_cast<std::uint32_t>(entries.size());
-    layout_ = lay_out_table(device_.limits(), counts_, record_size_);
+    layout_ = lay_out_table(device_->limits(), counts_, record_size_);
     bytes_.assign(layout_.size, std::byte{0});
     const auto put = [&](std::uint64_t offset, std::span<const std::byte> data) {
         std::copy(data.begin(), data.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
@@ -76,13 +76,13 @@ void TableTracer::prepare(const gpu::Commands& cmd, std::uint32_t slot_index, co
     const vk::WriteDescriptorSetAccelerationStructureKHR structures(structure);
     vk::WriteDescriptorSet write(*slot.set, 0, 0, 1, vk::DescriptorType::eAccelerationStructureKHR);
     write.pNext = &structures;
-    device_.vk().updateDescriptorSets(write, {});
+    device_->vk().updateDescriptorSets(write, {});
 
     if (slot.version == version_) return;
     if (slot.table.size() < bytes_.size()) {
         const std::string name = name_ + " shader table " + std::to_string(slot_index);
-        slot.staging = gpu::Buffer(device_, "staging for " + name, bytes_.size(), gpu::Residence::Upload);
-        slot.table = gpu::Buffer(device_, name, bytes_.size(), gpu::Residence::Device,
+        slot.staging = gpu::Buffer(*device_, "staging for " + name, bytes_.size(), gpu::Residence::Upload);
+        slot.table = gpu::Buffer(*device_, name, bytes_.size(), gpu::Residence::Device,
                                  vk::BufferUsageFlagBits::eShaderBindingTableKHR);
     }
     slot.staging.write(bytes_);

@@ -37,7 +37,7 @@ class TableTracer {
         std::uint64_t version = 0;  // of the bytes in table
     };
 
-    const gpu::Device& device_;
+    const gpu::Device* device_;
     std::string name_;
     TableCounts counts_;
     std::uint32_t record_size_;

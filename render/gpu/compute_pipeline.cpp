@@ -8,9 +8,12 @@ namespace foveray::gpu {
 
 ComputePipeline::ComputePipeline(const Device& device, std::string_view shader_name,
                                  const TextureTable& textures, std::uint32_t push_size)
+    : ComputePipeline(device, std::string(shader_name), shader(shader_name), textures, push_size) {}
+
+ComputePipeline::ComputePipeline(const Device& device, const std::string& name,
+                                 std::span<const std::uint32_t> code, const TextureTable& textures,
+                                 std::uint32_t push_size)
     : textures_(textures.set()) {
-    const std::string name(shader_name);
-    const auto code = shader(shader_name);
     const vk::raii::ShaderModule module(device.vk(), {{}, code.size_bytes(), code.data()});
     device.set_name(*module, name);
     const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_size);

@@ -14,6 +14,9 @@ class ComputePipeline {
     /// `shader_name` as in gpu::shader(); `push_size` in bytes.
     ComputePipeline(const Device& device, std::string_view shader_name, const TextureTable& textures,
                     std::uint32_t push_size);
+    /// From SPIR-V made at run time.
+    ComputePipeline(const Device& device, const std::string& name, std::span<const std::uint32_t> code,
+                    const TextureTable& textures, std::uint32_t push_size);
 
     /// Binds, pushes and dispatches enough groups of `group` threads to cover `threads`.
     template <typename Push>

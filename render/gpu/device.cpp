@@ -84,7 +84,7 @@ std::vector<std::string> missing_extensions(const vk::raii::PhysicalDevice& phys
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+    static_cast<Device::Messages*>(user)->add(data->pMessage);
     log::error("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
 }
@@ -119,6 +119,12 @@ constexpr const char* remedy_no_device =
     "install a driver with ray-tracing pipelines: the GPU maker's, or mesa-vulkan-drivers 25 "
     "(on Debian 12 from bookworm-backports) for the CPU; `foveray doctor` tells more";
 
+std::string joined(const std::vector<std::string>& parts, const char* separator) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
+    return text;
+}
+
 vk::raii::PhysicalDevice choose_physical_device(const vk::raii::Instance& instance,
                                                 std::optional<std::uint32_t> index) {
     auto all = instance.enumeratePhysicalDevices();
@@ -135,15 +141,13 @@ vk::raii::PhysicalDevice choose_physical_device(const vk::raii::Instance& instan
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return preference(a) < preference(b); });
     }
-    std::string reasons;
+    std::vector<std::string> refused;
     for (auto& physical : all) {
         const auto why = refusals(physical);
         if (why.empty()) return std::move(physical);
-        reasons +=
-            (reasons.empty() ? "" : "; ") + std::string(physical.getProperties().deviceName) + " lacks";
-        for (const auto& reason : why) reasons += " " + reason;
+        refused.push_back(std::string(physical.getProperties().deviceName) + " lacks " + joined(why, ", "));
     }
-    throw_missing("Vulkan", reasons, remedy_no_device);
+    throw_missing("Vulkan", joined(refused, "; "), remedy_no_device);
 }
 
 }  // namespace
@@ -161,7 +165,7 @@ std::vector<std::string> refusals(const vk::raii::PhysicalDevice& physical) {
 }
 
 Device::Device(const DeviceOptions& options, const DeviceSource& source)
-    : messages_(std::make_unique<std::vector<std::string>>()) {
+    : messages_(std::make_unique<Messages>()) {
     const vk::ApplicationInfo application("foveray", 1, "foveray", 1, VK_API_VERSION_1_3);
     std::vector<const char*> layers, extensions;
     for (const auto& e : options.instance_extensions) extensions.push_back(e.c_str());
@@ -178,14 +182,16 @@ Device::Device(const DeviceOptions& options, const DeviceSource& source)
 
     using Enable = vk::ValidationFeatureEnableEXT;
     const std::array checks = {Enable::eSynchronizationValidation};
-    const vk::ValidationFeaturesEXT validation_features(checks);
-    vk::DebugUtilsMessengerCreateInfoEXT messenger_info(
-        {},
-        vk::DebugUtilsMessageSeverityFlagBitsEXT::eError | vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning,
-        vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, on_message, messages_.get());
+    vk::ValidationFeaturesEXT validation_features(checks);
+    // As C's struct, because the callback's type differs between versions of Vulkan-Hpp.
+    const vk::DebugUtilsMessengerCreateInfoEXT messenger_info(VkDebugUtilsMessengerCreateInfoEXT{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT, nullptr, 0,
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT,
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT, on_message, messages_.get()});
     vk::InstanceCreateInfo instance_info({}, &application, layers, extensions);
     if (validation) {
         instance_info.pNext = &validation_features;
+        validation_features.pNext = &messenger_info;  // for what is said while the instance is made and freed
     }
 
     const auto get_proc = context_.getDispatcher()->vkGetInstanceProcAddr;
@@ -209,7 +215,7 @@ Device::Device(const DeviceOptions& options, const DeviceSource& source)
         physical_ = vk::raii::PhysicalDevice(instance_, source.choose_physical_device(*instance_));
         if (const auto why = refusals(physical_); !why.empty()) {
             throw_missing(std::string(physical_.getProperties().deviceName),
-                          "the headset's graphics device lacks " + why.front(), remedy_no_device);
+                          "the headset's graphics device lacks " + joined(why, ", "), remedy_no_device);
         }
     } else {
         physical_ = choose_physical_device(instance_, options.index);
@@ -263,8 +269,19 @@ Device::Device(const DeviceOptions& options, const DeviceSource& source)
                rt.maxRayRecursionDepth,     as.minAccelerationStructureScratchOffsetAlignment,
                as.maxInstanceCount};
     timestamp_period_ns_ = core.limits.timestampPeriod;
+    timestamp_valid_bits_ = physical_.getQueueFamilyProperties()[queue_family_].timestampValidBits;
     name_ = std::string(core.deviceName);
     driver_ = std::string(driver.driverName) + " " + std::string(driver.driverInfo);
+}
+
+void Device::Messages::add(const char* message) {
+    const std::lock_guard lock(mutex_);
+    messages_.emplace_back(message);
+}
+
+std::vector<std::string> Device::Messages::all() const {
+    const std::lock_guard lock(mutex_);
+    return messages_;
 }
 
 Device::~Device() {

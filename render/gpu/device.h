@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,10 +27,10 @@ struct DeviceSource {
 
 struct DeviceOptions {
     bool validation = false;  // Khronos validation layer with synchronisation checks
-    std::optional<std::uint32_t>
-        index = {};  // into vkEnumeratePhysicalDevices; else the first suitable, GPUs first
+    std::optional<std::uint32_t> index =
+        {};  // into vkEnumeratePhysicalDevices; else the first suitable, GPUs first
     std::vector<std::string> instance_extensions = {};  // of a window system, say
-    bool presentation = false;                     // VK_KHR_swapchain
+    bool presentation = false;                          // VK_KHR_swapchain
 };
 
 /// Why foveray cannot run on a physical device; empty when it can.
@@ -59,12 +60,14 @@ class Device {
     VmaAllocator_T* allocator() const { return allocator_; }
     const RayTracingLimits& limits() const { return limits_; }
     double timestamp_period_ns() const { return timestamp_period_ns_; }
+    /// Of the queue family: higher bits of a timestamp mean nothing.
+    std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
     /// Device and driver as one line, for reports.
     const std::string& name() const { return name_; }
     const std::string& driver() const { return driver_; }
 
     /// Validation errors and warnings so far; tests demand none.
-    const std::vector<std::string>& validation_messages() const { return *messages_; }
+    std::vector<std::string> validation_messages() const { return messages_->all(); }
 
     /// Debug name of any Vulkan object; a no-op without VK_EXT_debug_utils.
     template <typename Handle>
@@ -73,11 +76,22 @@ class Device {
                  reinterpret_cast<std::uint64_t>(static_cast<typename Handle::NativeType>(handle)), name);
     }
 
+    /// Drivers and layers report from any thread.
+    class Messages {
+      public:
+        void add(const char* message);
+        std::vector<std::string> all() const;
+
+      private:
+        mutable std::mutex mutex_;
+        std::vector<std::string> messages_;
+    };
+
   private:
     void set_name(vk::ObjectType type, std::uint64_t handle, const std::string& name) const;
 
     vk::raii::Context context_;
-    std::unique_ptr<std::vector<std::string>> messages_;
+    std::unique_ptr<Messages> messages_;  // outlives the instance, which reports to it
     bool debug_utils_ = false;
     vk::raii::Instance instance_ = nullptr;
     vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
@@ -88,6 +102,7 @@ class Device {
     VmaAllocator_T* allocator_ = nullptr;
     RayTracingLimits limits_;
     double timestamp_period_ns_ = 1.0;
+    std::uint32_t timestamp_valid_bits_ = 64;
     std::string name_, driver_;
 };
 

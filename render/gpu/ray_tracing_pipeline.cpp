@@ -10,29 +10,49 @@
 namespace foveray::gpu {
 namespace {
 
-/// The pipeline's stages, each shader once.
+/// The pipeline's stages and their code.
 class Stages {
   public:
-    explicit Stages(const Device& device) : device_(device) {}
+    Stages(const Device& device, const RayTracingPipelineInfo& info) : device_(device), info_(info) {}
 
     std::uint32_t index(vk::ShaderStageFlagBits stage, const std::string& name) {
         if (name.empty()) return VK_SHADER_UNUSED_KHR;
-        const auto [it, is_new] = indices_.emplace(name, static_cast<std::uint32_t>(infos.size()));
-        if (is_new) {
-            const auto code = shader(name);
-            modules_.emplace_back(device_.vk(),
-                                  vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
-            device_.set_name(*modules_.back(), name);
-            infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stage, *modules_.back(), "main");
-        }
+        const auto [it, is_new] = indices_.try_emplace(name);
+        if (is_new) it->second = add_stage(stage, module(name));
         return it->second;
+    }
+    /// A stage of its own for each group. Lavapipe 25 joins an intersection shader with its group's any-hit
+    /// shader, once a stage: a group that shared the stage would run the other group's any-hit shader.
+    std::uint32_t intersection(const std::string& name) {
+        return name.empty() ? VK_SHADER_UNUSED_KHR
+                            : add_stage(vk::ShaderStageFlagBits::eIntersectionKHR, module(name));
     }
 
     std::vector<vk::PipelineShaderStageCreateInfo> infos;
 
   private:
+    vk::ShaderModule module(const std::string& name) {
+        const auto [it, is_new] = modules_.try_emplace(name, nullptr);
+        if (is_new) {
+            const auto code = code_of(name);
+            it->second = vk::raii::ShaderModule(
+                device_.vk(), vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
+            device_.set_name(*it->second, name);
+        }
+        return *it->second;
+    }
+    std::uint32_t add_stage(vk::ShaderStageFlagBits stage, vk::ShaderModule code) {
+        infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stage, code, "main");
+        return static_cast<std::uint32_t>(infos.size() - 1);
+    }
+    std::span<const std::uint32_t> code_of(const std::string& name) const {
+        const auto own = info_.own_shaders.find(name);
+        return own == info_.own_shaders.end() ? shader(name) : std::span(own->second);
+    }
+
     const Device& device_;
-    std::vector<vk::raii::ShaderModule> modules_;
+    const RayTracingPipelineInfo& info_;
+    std::map<std::string, vk::raii::ShaderModule> modules_;
     std::map<std::string, std::uint32_t> indices_;
 };
 
@@ -48,7 +68,7 @@ RayTracingPipeline::RayTracingPipeline(const Device& device, const RayTracingPip
     : ray_generation_count_(info.ray_generation.size()),
       miss_count_(info.miss.size()),
       handle_size_(device.limits().handle_size) {
-    Stages used(device);
+    Stages used(device, info);
     std::vector<vk::RayTracingShaderGroupCreateInfoKHR> groups;
     using Stage = vk::ShaderStageFlagBits;
     for (const std::string& name : info.ray_generation) {
@@ -57,12 +77,11 @@ RayTracingPipeline::RayTracingPipeline(const Device& device, const RayTracingPip
     for (const std::string& name : info.miss)
         groups.push_back(general_group(used.index(Stage::eMissKHR, name)));
     for (const HitGroup& group : info.hit_groups) {
-        groups.emplace_back(group.intersection.empty()
-                                ? vk::RayTracingShaderGroupTypeKHR::eTrianglesHitGroup
-                                : vk::RayTracingShaderGroupTypeKHR::eProceduralHitGroup,
-                            VK_SHADER_UNUSED_KHR, used.index(Stage::eClosestHitKHR, group.closest_hit),
-                            used.index(Stage::eAnyHitKHR, group.any_hit),
-                            used.index(Stage::eIntersectionKHR, group.intersection));
+        groups.emplace_back(
+            group.intersection.empty() ? vk::RayTracingShaderGroupTypeKHR::eTrianglesHitGroup
+                                       : vk::RayTracingShaderGroupTypeKHR::eProceduralHitGroup,
+            VK_SHADER_UNUSED_KHR, used.index(Stage::eClosestHitKHR, group.closest_hit),
+            used.index(Stage::eAnyHitKHR, group.any_hit), used.intersection(group.intersection));
     }
 
     const std::array set_layouts = {textures.layout(), acceleration};

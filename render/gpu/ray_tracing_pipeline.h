@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@
 
 namespace foveray::gpu {
 
-/// The shaders that run where a ray meets a geometry: names as in gpu::shader(), each may be empty. With an
-/// intersection shader the group is for boxes, without it for triangles.
+/// The shaders that run where a ray meets a geometry: names as in gpu::shader(), or of shaders that came with
+/// the pipeline's info; each may be empty. With an intersection shader the group is for boxes, without it for
+/// triangles.
 struct HitGroup {
     std::string closest_hit, any_hit, intersection;
 
@@ -23,6 +25,7 @@ struct RayTracingPipelineInfo {
     std::vector<std::string> ray_generation;  // shader names
     std::vector<std::string> miss;            // shader names
     std::vector<HitGroup> hit_groups;
+    std::map<std::string, std::vector<std::uint32_t>> own_shaders = {};  // SPIR-V made at run time, by name
 };
 
 /// Ray-generation, miss and hit shaders as one pipeline. Set 0 is the texture table, set 1 the acceleration

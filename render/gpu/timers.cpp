@@ -5,6 +5,11 @@
 
 namespace foveray::gpu {
 
+std::uint64_t elapsed_ticks(std::uint64_t begin, std::uint64_t end, std::uint32_t valid_bits) {
+    const std::uint64_t mask = valid_bits < 64 ? (std::uint64_t{1} << valid_bits) - 1 : ~std::uint64_t{0};
+    return (end - begin) & mask;
+}
+
 GpuTimers::GpuTimers(const Device& device, std::uint32_t max_stages)
     : device_(&device),
       pool_(device.vk(), {{}, vk::QueryType::eTimestamp, 2 * max_stages}),
@@ -40,8 +45,9 @@ std::vector<StageTime> GpuTimers::read() const {
         0, used_, used_ * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
     if (result != vk::Result::eSuccess) return times;
     for (const Stage& stage : stages_) {
-        const double ms = static_cast<double>(stamps[stage.end] - stamps[stage.begin]) *
-                          device_->timestamp_period_ns() * 1e-6;
+        const std::uint64_t ticks =
+            elapsed_ticks(stamps[stage.begin], stamps[stage.end], device_->timestamp_valid_bits());
+        const double ms = static_cast<double>(ticks) * device_->timestamp_period_ns() * 1e-6;
         const auto it =
             std::find_if(times.begin(), times.end(), [&](const auto& t) { return t.name == stage.name; });
         if (it == times.end()) {

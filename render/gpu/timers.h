@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,9 @@ struct StageTime {
     std::string name;
     double milliseconds = 0.0;
 };
+
+/// Ticks from one timestamp to the next, of which only the lowest `valid_bits` count: they may wrap between.
+std::uint64_t elapsed_ticks(std::uint64_t begin, std::uint64_t end, std::uint32_t valid_bits);
 
 /// GPU timestamps round the stages of one command buffer. A name that occurs twice is summed.
 class GpuTimers {

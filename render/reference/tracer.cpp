@@ -14,6 +14,11 @@ Tracer::Tracer(const scene::Scene& scene, const scene::SceneChanges& now, What w
             add(scene.meshes[instance.mesh], now.instances[id].world_from_object,
                 instance.deformation ? &now.deformations[*instance.deformation] : nullptr, triangles_);
         }
+        for (std::size_t id = 0; id < scene.shape_instances.size(); ++id) {
+            const scene::ShapeId shape = scene.shape_instances[id].shape;
+            const glm::dmat4 world(now.shape_instances[id].world_from_object);
+            shapes_.push_back({&scene.shapes[shape], now.shapes[shape].values, glm::inverse(world)});
+        }
     } else {
         const mat4 world_from_stage = to_matrix(scene.world_from_stage);
         for (const scene::RealSurface& surface : scene.real_surfaces) {
@@ -100,6 +105,9 @@ std::optional<Hit> Tracer::closest(const Ray& ray, Side side) const {
         if (!farther && opacity(hit) > 0.0f && !is_culled()) nearest = hit;
         return nearest ? nearest->distance : ray.farthest;
     });
+    Ray until = ray;
+    if (nearest) until.farthest = nearest->distance;
+    if (const std::optional<ShapeHit> shape = closest_shape(until, side)) return describe(ray, *shape);
     if (!nearest) return std::nullopt;
     return describe(ray, *nearest);
 }
@@ -110,7 +118,55 @@ double Tracer::transmittance(const Ray& ray) const {
         through *= 1.0 - opacity(hit);
         return through > 0.0 ? ray.farthest : -1.0;
     });
+    for (const ShapeHit& hit : shape_hits(ray)) through *= 1.0 - opacity(hit);
     return through;
+}
+
+std::vector<Tracer::ShapeHit> Tracer::shape_hits(const Ray& ray) const {
+    std::vector<ShapeHit> result;
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+        Ray in_object = ray;
+        in_object.origin = dvec3(shapes_[i].object_from_world * glm::dvec4(ray.origin, 1.0));
+        in_object.direction = glm::dmat3(shapes_[i].object_from_world) * ray.direction;
+        for (const Crossing& crossing : crossings(*shapes_[i].shape, shapes_[i].values, in_object)) {
+            result.push_back({crossing, i});
+        }
+    }
+    return result;
+}
+
+std::optional<Tracer::ShapeHit> Tracer::closest_shape(const Ray& ray, Side side) const {
+    std::optional<ShapeHit> nearest;
+    for (const ShapeHit& hit : shape_hits(ray)) {
+        if (nearest && hit.crossing.distance >= nearest->crossing.distance) continue;
+        const bool culled = side == Side::FrontOnly && hit.crossing.inside &&
+                            !scene_->materials[hit.crossing.material].double_sided;
+        if (!culled) nearest = hit;
+    }
+    return nearest;
+}
+
+float Tracer::opacity(const ShapeHit& hit) const {
+    const scene::Material& material = scene_->materials[hit.crossing.material];
+    return material.alpha_mode == scene::AlphaMode::Blend ? std::clamp(material.base_color.a, 0.0f, 1.0f)
+                                                          : 1.0f;
+}
+
+Hit Tracer::describe(const Ray& ray, const ShapeHit& hit) const {
+    const PlacedShape& shape = shapes_[hit.shape];
+    const scene::Material& material = scene_->materials[hit.crossing.material];
+    Hit out;
+    out.distance = hit.crossing.distance;
+    out.position = ray.origin + out.distance * ray.direction;
+    const glm::dmat3 normal_matrix = glm::transpose(glm::dmat3(shape.object_from_world));
+    out.geometric_normal = vec3(glm::normalize(normal_matrix * hit.crossing.normal));
+    out.shading_normal = out.geometric_normal;
+    out.front = !hit.crossing.inside;
+    out.object = static_cast<std::uint32_t>(objects_.size()) + hit.shape;
+    out.material = hit.crossing.material;
+    out.base_color = material.base_color;
+    if (hit.crossing.base_color) out.base_color = vec4(*hit.crossing.base_color, out.base_color.a);
+    return out;
 }
 
 }  // namespace foveray::reference

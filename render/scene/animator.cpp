@@ -98,6 +98,7 @@ const SceneChanges& SceneAnimator::advance(Nanoseconds time) {
     const bool first = !started_;
     started_ = true;
     const Posed posed = pose_at(scene, time);
+    state_.time = time;
 
     state_.previous_world_from_node = state_.world_from_node;
     for (NodeId id = 0; id < scene.nodes.size(); ++id) {

@@ -35,6 +35,7 @@ struct ShapeState {
 
 /// One frame's state. Vectors are parallel to those of Scene; lights stand in the order of their nodes.
 struct SceneChanges {
+    Nanoseconds time = 0;
     std::vector<mat4> world_from_node, previous_world_from_node;
     std::vector<InstanceState> instances;
     std::vector<InstanceState> shape_instances;

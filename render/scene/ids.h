@@ -19,5 +19,6 @@ using DeformationId = std::uint32_t;
 using InstanceId = std::uint32_t;
 using ShapeId = std::uint32_t;
 using ShapeInstanceId = std::uint32_t;
+using UserShapeId = std::uint32_t;
 
 }  // namespace foveray::scene

@@ -8,6 +8,7 @@
 #include "render/scene/material.h"
 #include "render/scene/mesh.h"
 #include "render/scene/node.h"
+#include "render/scene/user_shape.h"
 #include "render/scene/shape.h"
 
 namespace foveray::scene {
@@ -55,6 +56,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;
     std::vector<Shape> shapes;
+    std::vector<UserShape> user_shapes;  // one a file
     std::vector<Skin> skins;
     std::vector<Animation> animations;  // all of them play
     std::vector<Light> lights;

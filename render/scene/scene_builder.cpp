@@ -95,6 +95,8 @@ ShapeId SceneBuilder::add(Shape shape) {
     return append(scene_.shapes, std::move(shape));
 }
 
+UserShapeId SceneBuilder::add(UserShape shape) { return append(scene_.user_shapes, std::move(shape)); }
+
 NodeId SceneBuilder::add(Node node) {
     assert(!node.parent || *node.parent < scene_.nodes.size());
     assert(!node.mesh || *node.mesh < scene_.meshes.size());

@@ -17,6 +17,7 @@ class SceneBuilder {
     MaterialId add(Material material);
     MeshId add(Mesh mesh);
     ShapeId add(Shape shape);
+    UserShapeId add(UserShape shape);
     NodeId add(Node node);
     SkinId add(Skin skin);
     void add(Animation animation);

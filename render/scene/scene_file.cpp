@@ -1,5 +1,6 @@
 #include "render/scene/scene_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -186,10 +187,21 @@ void SceneFileReader::set_environment(const Json& json) {
     builder_.set(std::move(environment));
 }
 
+constexpr int deepest_json = 64;  // levels: the schema's check of solids is recursive
+
+bool is_deeper(const Json& json, int levels) {
+    return levels == 0 || (json.is_structured() && std::ranges::any_of(json, [&](const Json& inner) {
+                               return is_deeper(inner, levels - 1);
+                           }));
+}
+
 }  // namespace
 
 Scene load_scene_file(const std::filesystem::path& file) {
     Json json = read_json(file);
+    if (is_deeper(json, deepest_json)) {
+        throw_bad_input(file.string(), "it is nested too deeply", "flatten its solids");
+    }
     check_json(json, scene_schema(), file);
     return SceneFileReader(file, std::move(json)).read();
 }

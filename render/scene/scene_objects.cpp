@@ -6,6 +6,11 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "base/text.h"
+#include "render/scene/scene_blend.h"
+#include "render/scene/scene_material.h"
+#include "render/scene/scene_solid.h"
+#include "render/scene/user_shape_object.h"
+#include "render/scene/voxel_object.h"
 
 namespace foveray::scene {
 namespace {
@@ -29,7 +34,8 @@ class ObjectReader {
 
     void read() {
         Shape shape = read_shape();
-        const ShapeKindInfo& kind = shape_kind(shape.kind);
+        ShapeKindInfo kind = shape_kind(shape.kind);
+        if (shape.kind == ShapeKind::User) kind.parameters = user_parameters(builder_.so_far(), shape);
         Node node;
         node.name = json_.value("name", std::string(kind.name));
         node.parent = parent();
@@ -54,13 +60,61 @@ class ObjectReader {
         for (const ShapeKindInfo& kind : shape_kinds()) {
             names.push_back(kind.name);
             if (kind.name != name) continue;
+            if (kind.kind == ShapeKind::User) return user_shape();
+            if (json_.contains("bounds")) {
+                values_.fault(place_ + "/bounds", "only a user shape has them", "leave them out");
+            }
             Shape shape;
             shape.kind = kind.kind;
             shape.values = default_values(kind.parameters);
             read_parameters(kind.parameters, shape.values);
+            if (kind.kind == ShapeKind::Voxels) {
+                const Shape voxels = read_voxel_object(builder_, values_, json_, place_);
+                shape.voxels = voxels.voxels;
+                shape.voxels_source = voxels.voxels_source;
+            } else {
+                refuse_voxel_keys();
+            }
+            if (kind.kind == ShapeKind::Blend) shape.blend_parts = blend_parts();
+            if (kind.kind != ShapeKind::Blend && json_.contains("parts")) {
+                values_.fault(place_ + "/parts", "only a blend shape has them", "leave them out");
+            }
+            if (kind.kind == ShapeKind::Csg) shape.solid = solid();
+            if (kind.kind != ShapeKind::Csg && json_.contains("solid")) {
+                values_.fault(place_ + "/solid", "only a csg shape has one", "leave it out");
+            }
             return shape;
         }
         values_.fault(place_ + "/shape", "\"" + name + "\" is no shape", did_you_mean(name, names));
+    }
+
+    void refuse_voxel_keys() const {
+        for (const char* key : {"voxelize", "voxel_size"}) {
+            if (!json_.contains(key)) continue;
+            values_.fault(place_ + "/" + key, "only a voxels shape has one", "leave it out");
+        }
+    }
+
+    Shape user_shape() {
+        Shape shape = read_user_object(builder_, values_, json_, place_);
+        const std::vector<ShapeParameter> parameters = user_parameters(builder_.so_far(), shape);
+        shape.values = default_values(parameters);
+        read_parameters(parameters, shape.values);
+        return shape;
+    }
+
+    std::vector<BlendPart> blend_parts() const {
+        if (!json_.contains("parts")) {
+            values_.fault(place_, "has no \"parts\"", "give some: docs/scene-format.md shows how");
+        }
+        return read_blend_parts(values_, json_["parts"], place_ + "/parts");
+    }
+
+    CsgSolid solid() {
+        if (!json_.contains("solid")) {
+            values_.fault(place_, "has no \"solid\"", "give one: docs/scene-format.md shows how");
+        }
+        return read_solid(builder_, values_, json_["solid"], place_ + "/solid");
     }
 
     void read_parameters(std::span<const ShapeParameter> parameters, std::vector<float>& into) {
@@ -98,29 +152,16 @@ class ObjectReader {
             values_.fault(place, number.dump() + " is out of range",
                           fmt::format("give {} to {}", parameter.least, parameter.most));
         }
+        const bool no_length = std::ranges::all_of(result, [](float x) { return std::abs(x) < 1e-3f; });
+        if (parameter.rotation && no_length) {
+            values_.fault(place, "is no rotation", "give a quaternion x, y, z, w");
+        }
         return result;
     }
 
     Material material() const {
-        Material m;
-        m.name = json_.value("name", json_["shape"].get<std::string>());
-        m.metallic = 0.0f;
-        m.roughness = 0.5f;
-        m.double_sided = true;
-        if (!json_.contains("material")) return m;
-        const Json& json = json_["material"];
-        const std::string place = place_ + "/material";
-        if (json.contains("base_color")) {
-            const Json& c = json["base_color"];
-            for (std::size_t i = 0; i < c.size(); ++i) m.base_color[static_cast<int>(i)] = c[i].get<float>();
-        }
-        if (m.base_color.a < 1.0f) m.alpha_mode = AlphaMode::Blend;
-        m.metallic = values_.number(json, "metallic", place, m.metallic);
-        m.roughness = values_.number(json, "roughness", place, m.roughness);
-        m.emissive = values_.triple(json, "emissive", place, m.emissive);
-        m.double_sided = json.value("double_sided", m.double_sided);
-        m.unlit = json.value("unlit", false);
-        return m;
+        return read_material(values_, json_.value("material", Json::object()),
+                             json_.value("name", json_["shape"].get<std::string>()), place_ + "/material");
     }
 
     std::optional<NodeId> parent() const {

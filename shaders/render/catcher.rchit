@@ -39,4 +39,5 @@ void main() {
     surface.material = record.surface;
     surface.instance = gl_InstanceCustomIndexEXT;
     surface.position_error = 0.0;
+    surface.thickness = 0.0;
 }

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_EXT_ray_tracing : require
 
-layout(location = 1) rayPayloadInEXT vec3 transmittance;
+layout(location = 1) rayPayloadInEXT vec4 shadow;  // trace_shadow.glsl
 
-// Nothing opaque stood in the way: what the any-hit shaders left is the answer.
-void main() {}
+void main() { shadow.w = 1.0; }

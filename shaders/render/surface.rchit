@@ -87,4 +87,5 @@ void main() {
     surface.material = record.material;
     surface.instance = gl_InstanceCustomIndexEXT;
     surface.position_error = 0.0;
+    surface.thickness = 0.0;
 }

@@ -15,8 +15,9 @@ struct LightSample {
     float valid;         // 0: culled
 };
 
-// Rays traced, by kind, spread over slots to avoid contention; the CPU sums the slots.
-FOVERAY_CONST uint RAY_COUNTER_SLOTS = 64u;
+// Rays traced, by kind. Each is spread over slots, so that neighbouring samples do not wait for one another: on an H200
+// a slot for 32 of them cost as much as the rays. The CPU sums the slots.
+FOVERAY_CONST uint RAY_COUNTER_SLOTS = 1024u;
 FOVERAY_CONST uint COUNT_PRIMARY = 0u;
 FOVERAY_CONST uint COUNT_SHADOW = 1u;
 FOVERAY_CONST uint COUNT_REFLECTION = 2u;
@@ -31,7 +32,7 @@ static_assert(sizeof(LightSample) == 48 && offsetof(LightSample, valid) == 44);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(LightSampleArray, LightSample);
-FOVERAY_ARRAY(CounterArray, uint);  // [slot * RAY_COUNTER_KINDS + kind]
+FOVERAY_ARRAY(CounterArray, uint);  // [kind * RAY_COUNTER_SLOTS + sample % RAY_COUNTER_SLOTS]
 #endif
 
 #endif

@@ -28,12 +28,14 @@ struct LightingPush {
     uint debug_view;
     float reflection_max_roughness;
     float environment_intensity;
+    uint first_sample;  // of the launch, whose rows follow one another
+    uint pad;
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::LightingPush) == 72);
+static_assert(sizeof(foveray::shared::LightingPush) == 80);
 #endif
 
 #endif

@@ -42,7 +42,7 @@ struct SampleGrid {
     uint view_count;
     uint sample_count;  // all eyes or views
     uint frame_index;
-    vec2 jitter;  // GRID_PIXELS: position inside the pixel, [0, 1)
+    vec2 jitter;  // GRID_PIXELS: position in the pixel, about 0 … 1
     uint sub_sample;
     uint sub_sample_count;  // samples of a pixel that are averaged; each stands for its share of the pixel
     uint64_t gaze_frames;  // GazeFrame[2]

@@ -32,13 +32,14 @@ struct Surface {
     uint material;           // id given by the scene
     uint instance;
     float position_error;  // how far off the true surface `position` may be, besides rounding; metres
+    float thickness;       // 0, or what lies behind begins so far behind `position` along the ray; metres
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
 namespace foveray::shared {
-static_assert(sizeof(Surface) == 116 && offsetof(Surface, position_error) == 112);
+static_assert(sizeof(Surface) == 120 && offsetof(Surface, thickness) == 116);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(SurfaceArray, Surface);

@@ -1,10 +1,9 @@
 #include "render/gpu/device.h"
 
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/fakes/environment.h"
 #include "tests/fakes/gpu_fixture.h"
 
 namespace foveray::gpu {
@@ -33,22 +32,8 @@ TEST_F(DeviceTest, AnIndexOutOfRangeIsBadInput) {
     }
 }
 
-/// An environment variable for as long as it lives.
-class Environment {
-  public:
-    Environment(const char* name, const char* value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old;
-        setenv(name, value, 1);
-    }
-    ~Environment() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
-
-  private:
-    const char* name_;
-    std::optional<std::string> old_;
-};
-
 TEST_F(DeviceTest, NoDriverIsMissingWithARemedy) {
-    const Environment none("VK_DRIVER_FILES", "/nonexistent.json"),
+    const fakes::Environment none("VK_DRIVER_FILES", "/nonexistent.json"),
         old_name("VK_ICD_FILENAMES", "/nonexistent.json");
     try {
         Device other;
@@ -57,6 +42,15 @@ TEST_F(DeviceTest, NoDriverIsMissingWithARemedy) {
         EXPECT_EQ(fault.code(), ExitCode::Missing);
         EXPECT_NE(fault.remedy().find("mesa-vulkan-drivers"), std::string::npos);
     }
+}
+
+TEST_F(DeviceTest, HearsWhatIsSaidWhileTheInstanceIsMade) {
+    // An extension without the one that it builds upon: the layer objects before any messenger can exist.
+    const Device other(
+        {.validation = true, .instance_extensions = {VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME}});
+    const auto messages = other.validation_messages();
+    ASSERT_FALSE(messages.empty());
+    EXPECT_NE(messages.front().find("VK_KHR_surface"), std::string::npos) << messages.front();
 }
 
 TEST_F(DeviceTest, TakesOverWhatSomebodyElseMakes) {

@@ -7,6 +7,14 @@ namespace {
 
 class TimersTest : public fakes::GpuTest {};
 
+TEST(ElapsedTicks, OnlyValidBitsCountAndMayWrap) {
+    EXPECT_EQ(elapsed_ticks(100, 130, 64), 30u);
+    EXPECT_EQ(elapsed_ticks(~std::uint64_t{0} - 9, 20, 64), 30u);
+    EXPECT_EQ(elapsed_ticks((std::uint64_t{1} << 36) - 10, 20, 36), 30u);
+    // What stands above the valid bits is arbitrary.
+    EXPECT_EQ(elapsed_ticks(0xABC0000000000064u, 0x1230000000000082u, 36), 30u);
+}
+
 TEST_F(TimersTest, StagesAreNamedNestedAndSummed) {
     FrameRing ring(device(), 2);
     Buffer buffer(device(), "something to fill", 8 << 20, Residence::Device);

@@ -103,17 +103,6 @@ TEST_F(RecordedCameraTest, TimeThatGoesBackKeepsTheNewest) {
     EXPECT_EQ(c.at(3 * ms)->sequence, 2u);
 }
 
-TEST_F(RecordedCameraTest, PushesIntoSinks) {
-    struct Sink : FrameSink {
-        std::vector<std::uint64_t> sequences;
-        void push(const CameraFramePtr& frame) override { sequences.push_back(frame->sequence); }
-    } sink;
-    RecordedCamera c = camera(0);
-    c.add_sink(sink);
-    for (const Nanoseconds time : {0, 8, 16, 24, 32, 40}) c.at(time * ms);
-    EXPECT_EQ(sink.sequences, (std::vector<std::uint64_t>{0, 1, 2, 3}));
-}
-
 TEST_F(RecordedCameraTest, RefusesARecordingWithoutPictures) {
     RecordedCamera c(std::make_unique<FakeReader>(std::vector<Nanoseconds>{0}, decoded_), 0);
     EXPECT_THROW(c.at(0), Fault);

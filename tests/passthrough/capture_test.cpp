@@ -63,8 +63,10 @@ TEST(Video, IsH264In420) {
     const fakes::TemporaryFolder folder;
     const fs::path file = write_video(folder / "v.mp4", 65, 49, 30.0, {10, 20});
     cv::VideoCapture video(file.string(), cv::CAP_FFMPEG);
-    const int fourcc = static_cast<int>(video.get(cv::CAP_PROP_FOURCC));
-    EXPECT_EQ(fourcc, cv::VideoWriter::fourcc('a', 'v', 'c', '1'));
+    const int fourcc = static_cast<int>(video.get(cv::CAP_PROP_FOURCC));  // OpenCV 4.10 tells the codec's own
+    EXPECT_TRUE(fourcc == cv::VideoWriter::fourcc('a', 'v', 'c', '1') ||
+                fourcc == cv::VideoWriter::fourcc('h', '2', '6', '4'))
+        << fourcc;
     EXPECT_EQ(static_cast<int>(video.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT)),
               cv::VideoWriter::fourcc('I', '4', '2', '0'));
     EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 64);

@@ -85,10 +85,23 @@ void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, fl
     make_spaces();
     make_swapchains();
     input_ = Input(*instance_, session_.get());
-    read_hidden_meshes();
+    if (instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) {
+        hidden_meshes_.assign(sizes_.size(), {});
+        for (std::uint32_t view = 0; view < sizes_.size(); ++view) read_hidden_mesh(view);
+    }
+}
+
+void Headset::abandon_frame() {
+    if (!open_frame_) return;
+    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+    info.displayTime = *open_frame_;
+    info.environmentBlendMode = to_xr_blend_mode(blend_);
+    xrEndFrame(session_.get(), &info);  // if even that fails, the session ends all the same
+    open_frame_.reset();
 }
 
 void Headset::stop() {
+    abandon_frame();
     input_ = Input();
     color_.clear();
     depth_.clear();
@@ -124,44 +137,38 @@ void Headset::make_spaces() {
 void Headset::make_swapchains() {
     sizes_ = instance_->view_sizes(false);
     foveated_sizes_ = instance_->can_foveate() ? instance_->view_sizes(true) : sizes_;
-    largest_sizes_.clear();
     const bool with_depth = instance_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
                             Swapchain::offers(session_.get(), Swapchain::Kind::Depth);
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
         const uvec2 size = glm::max(sizes_[i], foveated_sizes_[i]);
         const std::string name = "view " + std::to_string(i);
-        largest_sizes_.push_back(size);
         color_.emplace_back(session_.get(), Swapchain::Kind::Color, size, name.c_str());
         if (with_depth) depth_.emplace_back(session_.get(), Swapchain::Kind::Depth, size, name.c_str());
     }
 }
 
-void Headset::read_hidden_meshes() {
-    hidden_meshes_.clear();
-    if (!instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) return;
+void Headset::read_hidden_mesh(std::uint32_t view) {
     const auto get_mask = instance_->function<PFN_xrGetVisibilityMaskKHR>("xrGetVisibilityMaskKHR");
-    for (std::uint32_t view = 0; view < sizes_.size(); ++view) {
-        XrVisibilityMaskKHR mask{XR_TYPE_VISIBILITY_MASK_KHR};
-        const auto read = [&] {
-            check(get_mask(session_.get(), instance_->view_configuration(), view,
-                           XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask),
-                  "xrGetVisibilityMaskKHR");
-        };
+    XrVisibilityMaskKHR mask{XR_TYPE_VISIBILITY_MASK_KHR};
+    const auto read = [&] {
+        check(get_mask(session_.get(), instance_->view_configuration(), view,
+                       XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask),
+              "xrGetVisibilityMaskKHR");
+    };
+    read();
+    HiddenMesh mesh;
+    mesh.version = ++hidden_mesh_version_;
+    if (mask.vertexCountOutput > 0 && mask.indexCountOutput > 0) {
+        std::vector<XrVector2f> vertices(mask.vertexCountOutput);
+        mesh.indices.resize(mask.indexCountOutput);
+        mask.vertexCapacityInput = mask.vertexCountOutput;
+        mask.indexCapacityInput = mask.indexCountOutput;
+        mask.vertices = vertices.data();
+        mask.indices = mesh.indices.data();
         read();
-        HiddenMesh mesh;
-        mesh.version = hidden_meshes_.size() + 1 + frame_index_;
-        if (mask.vertexCountOutput > 0 && mask.indexCountOutput > 0) {
-            std::vector<XrVector2f> vertices(mask.vertexCountOutput);
-            mesh.indices.resize(mask.indexCountOutput);
-            mask.vertexCapacityInput = mask.vertexCountOutput;
-            mask.indexCapacityInput = mask.indexCountOutput;
-            mask.vertices = vertices.data();
-            mask.indices = mesh.indices.data();
-            read();
-            for (const XrVector2f& v : vertices) mesh.vertices.emplace_back(v.x, v.y);
-        }
-        hidden_meshes_.push_back(std::move(mesh));
+        for (const XrVector2f& v : vertices) mesh.vertices.emplace_back(v.x, v.y);
     }
+    hidden_meshes_[view] = std::move(mesh);
 }
 
 Headset::State Headset::poll() {
@@ -176,9 +183,14 @@ Headset::State Headset::poll() {
                 log::warn("the OpenXR runtime {} is shutting down", instance_->runtime_name());
                 state_ = State::Ended;
                 break;
-            case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR:
-                read_hidden_meshes();
+            case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR: {
+                const auto& change = reinterpret_cast<const XrEventDataVisibilityMaskChangedKHR&>(event);
+                if (change.viewConfigurationType == instance_->view_configuration() &&
+                    change.viewIndex < hidden_meshes_.size()) {
+                    read_hidden_mesh(change.viewIndex);
+                }
                 break;
+            }
             default:
                 break;
         }
@@ -202,7 +214,8 @@ void Headset::on_state(XrSessionState state) {
             state_ = State::Waiting;
             break;
         case XR_SESSION_STATE_LOSS_PENDING:
-            log::warn("the OpenXR session is being lost");
+            log::warn("the OpenXR runtime {} is losing the headset: the session ends",
+                      instance_->runtime_name());
             state_ = State::Ended;
             break;
         case XR_SESSION_STATE_EXITING:
@@ -233,7 +246,10 @@ Frame Headset::begin_frame() {
     XrFrameState frame_state{XR_TYPE_FRAME_STATE};
     check(xrWaitFrame(session_.get(), &wait_info, &frame_state), "xrWaitFrame");
     const XrFrameBeginInfo begin_info{XR_TYPE_FRAME_BEGIN_INFO};
-    check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame");
+    if (check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame") == XR_FRAME_DISCARDED) {
+        release_images();  // of the frame that was begun before and never ended
+    }
+    open_frame_ = frame_state.predictedDisplayTime;
     submission_recorded_ = false;
 
     if (frame_index_ == 0) first_display_time_ = frame_state.predictedDisplayTime;
@@ -246,30 +262,10 @@ Frame Headset::begin_frame() {
     frame.has_eye_tracking = instance_->has_eye_tracking();
     frame.blend = blend_;
 
-    const bool foveated = rendering_gaze_is_available(frame.display_time);
-    const XrViewLocateFoveatedRenderingVARJO foveation{XR_TYPE_VIEW_LOCATE_FOVEATED_RENDERING_VARJO, nullptr,
-                                                       foveated};
-    XrViewLocateInfo locate{XR_TYPE_VIEW_LOCATE_INFO};
-    locate.next = rendering_gaze_ ? &foveation : nullptr;
-    locate.viewConfigurationType = instance_->view_configuration();
-    locate.displayTime = frame.display_time;
-    locate.space = stage_.get();
-    XrViewState view_state{XR_TYPE_VIEW_STATE};
-    std::uint32_t count = static_cast<std::uint32_t>(sizes_.size());
-    std::vector<XrView> views(count, {XR_TYPE_VIEW});
-    check(xrLocateViews(session_.get(), &locate, &view_state, count, &count, views.data()), "xrLocateViews");
-    const XrViewStateFlags needed = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
-    frame.head_valid = (view_state.viewStateFlags & needed) == needed;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        View view;
-        view.eye = i % 2 == 0 ? Eye::Left : Eye::Right;
-        view.role = i < 2 ? ViewRole::Context : ViewRole::Focus;
-        view.stage_from_eye = to_pose(views[i].pose);
-        view.fov = to_fov(views[i].fov);
-        view.size = foveated ? foveated_sizes_[i] : sizes_[i];
-        frame.head_valid = frame.head_valid && is_usable(view.stage_from_eye);
-        frame.views.push_back(view);
-    }
+    LocatedViews located_views =
+        locate_views(frame.display_time, rendering_gaze_is_available(frame.display_time));
+    frame.views = std::move(located_views.views);
+    frame.head_valid = located_views.valid;
     XrSpaceLocation head{XR_TYPE_SPACE_LOCATION};
     check(xrLocateSpace(head_.get(), stage_.get(), frame.display_time, &head), "xrLocateSpace");
     const XrSpaceLocationFlags located =
@@ -289,6 +285,61 @@ Frame Headset::begin_frame() {
     frame.stage_from_head = last_head_;
     input_.update(session_.get(), stage_.get(), frame);
     return frame;
+}
+
+Headset::LocatedViews Headset::locate_views(XrTime time, bool foveated) const {
+    const XrViewLocateFoveatedRenderingVARJO foveation{XR_TYPE_VIEW_LOCATE_FOVEATED_RENDERING_VARJO, nullptr,
+                                                       foveated};
+    XrViewLocateInfo locate{XR_TYPE_VIEW_LOCATE_INFO};
+    locate.next = rendering_gaze_ ? &foveation : nullptr;
+    locate.viewConfigurationType = instance_->view_configuration();
+    locate.displayTime = time;
+    locate.space = stage_.get();
+    XrViewState view_state{XR_TYPE_VIEW_STATE};
+    std::uint32_t count = static_cast<std::uint32_t>(sizes_.size());
+    std::vector<XrView> views(count, {XR_TYPE_VIEW});
+    check(xrLocateViews(session_.get(), &locate, &view_state, count, &count, views.data()), "xrLocateViews");
+    const XrViewStateFlags needed = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+    LocatedViews located;
+    located.valid = (view_state.viewStateFlags & needed) == needed;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        View view;
+        view.eye = i % 2 == 0 ? Eye::Left : Eye::Right;
+        view.role = i < 2 ? ViewRole::Context : ViewRole::Focus;
+        view.stage_from_eye = to_pose(views[i].pose);
+        view.fov = to_fov(views[i].fov);
+        view.size = foveated ? foveated_sizes_[i] : sizes_[i];
+        located.valid = located.valid && is_usable(view.stage_from_eye);
+        located.views.push_back(view);
+    }
+    return located;
+}
+
+HeadsetProfile Headset::profile(const Frame& frame) const {
+    HeadsetProfile profile;
+    profile.name = profile.display_name = instance_->system_name();
+    profile.source = "What " + instance_->runtime_name() + " told foveray while a session was recorded.";
+    profile.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
+    profile.eye_tracking = instance_->has_eye_tracking();
+    // The views as they are when they do not follow the gaze.
+    const std::vector<View> views = locate_views(frame.display_time, false).views;
+    profile.ipd = glm::distance(views[0].stage_from_eye.position, views[1].stage_from_eye.position);
+    for (const View& view : views)
+        profile.views.push_back(
+            {view.eye, view.role, view.size, view.fov, centre_ppd(view.fov, view.size.x)});
+    profile.blend_modes = instance_->blend_modes();
+    // Its controllers have every input that a session keeps; which ones were held is not recorded.
+    profile.interaction_profile = "/interaction_profiles/oculus/touch_controller";
+    if (views.size() > 2) {
+        profile.foveated_focus_scale =
+            std::min(1.0f, static_cast<float>(foveated_sizes_[2].x) / static_cast<float>(sizes_[2].x));
+    }
+    return profile;
+}
+
+void Headset::release_images() {
+    for (Swapchain& swapchain : color_) swapchain.release();
+    for (Swapchain& swapchain : depth_) swapchain.release();
 }
 
 void Headset::record_submission(const gpu::Commands& cmd, const Frame& frame,
@@ -314,8 +365,7 @@ void Headset::end_frame(const Frame& frame) {
     info.displayTime = frame.display_time;
     info.environmentBlendMode = to_xr_blend_mode(blend_);
     if (submission_recorded_) {
-        for (Swapchain& swapchain : color_) swapchain.release();
-        for (Swapchain& swapchain : depth_) swapchain.release();
+        release_images();
         for (std::size_t i = 0; i < views.size(); ++i) {
             const View& view = frame.views[i];
             const XrRect2Di rect{{0, 0}, {static_cast<int>(view.size.x), static_cast<int>(view.size.y)}};
@@ -338,6 +388,7 @@ void Headset::end_frame(const Frame& frame) {
         info.layerCount = 1;
         info.layers = layers;
     }
+    open_frame_.reset();
     check(xrEndFrame(session_.get(), &info), "xrEndFrame");
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/frame.h"
+#include "base/headset_profile.h"
 #include "render/gpu/commands.h"
 #include "xr/client/input.h"
 #include "xr/client/instance.h"
@@ -51,6 +53,8 @@ class Headset {
     /// The device must come from device_source() and outlive the session. `blend`: how the runtime should mix
     /// our picture with the world; falls back to what it offers.
     void start(const gpu::Device& device, BlendMode blend, float near_z, float far_z);
+    /// Ends the session, and first, showing nothing, a frame that was begun and not ended. The GPU must be
+    /// done with the runtime's images. Does nothing a second time.
     void stop();
 
     State poll();
@@ -63,19 +67,28 @@ class Headset {
     /// commands.
     void record_submission(const gpu::Commands& cmd, const Frame& frame,
                            const std::vector<ViewPicture>& pictures);
-    /// Always called after begin_frame; shows nothing when nothing was recorded.
+    /// Always called after begin_frame, unless an exception ends the session; shows nothing when nothing was
+    /// recorded.
     void end_frame(const Frame& frame);
 
     /// Per view of Frame::views; the vector stays empty where the runtime has no mask.
     const std::vector<HiddenMesh>& hidden_meshes() const { return hidden_meshes_; }
-    /// The size of each view's largest picture.
-    const std::vector<uvec2>& largest_sizes() const { return largest_sizes_; }
+    /// The headset as the runtime tells it at `frame`, after begin_frame: for sessions recorded with it.
+    /// Acuity is not the runtime's to tell.
+    HeadsetProfile profile(const Frame& frame) const;
 
   private:
     void on_state(XrSessionState state);
     void make_spaces();
     void make_swapchains();
-    void read_hidden_meshes();
+    void read_hidden_mesh(std::uint32_t view);
+    struct LocatedViews {
+        std::vector<View> views;
+        bool valid = false;
+    };
+    LocatedViews locate_views(XrTime time, bool foveated) const;
+    void abandon_frame();
+    void release_images();
     bool rendering_gaze_is_available(XrTime time) const;
 
     std::unique_ptr<Instance> instance_;
@@ -89,15 +102,30 @@ class Headset {
 
     SpaceHandle stage_, head_, rendering_gaze_;
     Input input_;
-    std::vector<uvec2> sizes_, foveated_sizes_, largest_sizes_;
+    std::vector<uvec2> sizes_, foveated_sizes_;
     std::vector<Swapchain> color_, depth_;
     std::vector<HiddenMesh> hidden_meshes_;
+    std::uint64_t hidden_mesh_version_ = 0;
     std::uint64_t frame_index_ = 0;
+    std::optional<XrTime> open_frame_;  // begun and not ended: its display time
     Nanoseconds first_display_time_ = 0;
     bool submission_recorded_ = false;
     // Held while tracking is lost.
     std::vector<View> last_views_;
     Pose last_head_;
+};
+
+/// Stops the headset at the end of its scope, whatever ends it. Declare it after the device and before what
+/// works on the GPU, so that it goes between them.
+class StopAtEnd {
+  public:
+    explicit StopAtEnd(Headset& headset) : headset_(headset) {}
+    ~StopAtEnd() { headset_.stop(); }
+    StopAtEnd(const StopAtEnd&) = delete;
+    StopAtEnd& operator=(const StopAtEnd&) = delete;
+
+  private:
+    Headset& headset_;
 };
 
 }  // namespace foveray::xr

@@ -1,6 +1,7 @@
 #include "xr/client/instance.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/error.h"
@@ -15,7 +16,8 @@ constexpr std::array wanted_extensions = {
     XR_VARJO_QUAD_VIEWS_EXTENSION_NAME,    XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME,
 };
 
-constexpr const char* remedy = "start or install an OpenXR runtime, or use --runtime simulator";
+constexpr const char* remedy =
+    "start or install an OpenXR runtime, or use --runtime simulator; XR_LOADER_DEBUG=error tells more";
 
 std::set<std::string> offered_extensions() {
     std::uint32_t count = 0;
@@ -49,9 +51,12 @@ Instance::Instance() {
 }
 
 void Instance::create() {
+    // Or the loader writes to stderr that a runtime refuses 1.1, which is no error here.
+    ::setenv("XR_LOADER_DEBUG", "none", 0);
     const std::set<std::string> offered = offered_extensions();
     if (!offered.contains(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME)) {
-        throw_missing("OpenXR runtime", "it lacks XR_KHR_vulkan_enable2", remedy);
+        throw_missing("OpenXR runtime", "it lacks XR_KHR_vulkan_enable2",
+                      "use another OpenXR runtime, or --runtime simulator");
     }
     std::vector<const char*> names;
     for (const char* name : wanted_extensions) {

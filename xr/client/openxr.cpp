@@ -19,6 +19,10 @@ std::string result_name(XrResult result) {
 }
 
 XrResult check(XrResult result, const char* call) {
+    if (result == XR_ERROR_SESSION_LOST || result == XR_ERROR_INSTANCE_LOST) {
+        throw_missing("OpenXR runtime", std::string("it lost the headset in ") + call,
+                      "see that runtime and headset are running, and start foveray again");
+    }
     if (XR_FAILED(result)) {
         throw_missing("OpenXR runtime", std::string(call) + " failed with " + result_name(result),
                       "`foveray doctor` shows the runtime; --runtime simulator needs none");

@@ -20,10 +20,19 @@ struct Registry {
     std::map<std::uint64_t, Entry> entries;  // by age, so that children stand behind their parents
 };
 
-/// Never destroyed: objects that a program leaves behind must not reach for its Vulkan device while it exits.
+/// Objects that a program leaves behind are not freed: they must not reach for its Vulkan device while it
+/// exits.
+struct Keeper {
+    Registry& registry = *new Registry;
+
+    ~Keeper() {
+        if (registry.entries.empty()) delete &registry;
+    }
+};
+
 Registry& registry() {
-    static Registry& instance = *new Registry;
-    return instance;
+    static Keeper keeper;
+    return keeper.registry;
 }
 
 }  // namespace

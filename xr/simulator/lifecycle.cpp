@@ -30,7 +30,7 @@ void Lifecycle::begin() {
 }
 
 void Lifecycle::show(Script::Presence presence) {
-    if (!running_ || stopping()) return;
+    if (!running_ || stopping() || lost()) return;
     switch (presence) {
         case Script::Presence::Focused:
             return walk_to(XR_SESSION_STATE_FOCUSED);
@@ -41,9 +41,13 @@ void Lifecycle::show(Script::Presence presence) {
     }
 }
 
+void Lifecycle::lose() {
+    if (!lost()) enter(XR_SESSION_STATE_LOSS_PENDING);
+}
+
 void Lifecycle::ask_to_stop() {
     verify(running_, XR_ERROR_SESSION_NOT_RUNNING);
-    if (stopping()) return;
+    if (stopping() || lost()) return;
     walk_to(XR_SESSION_STATE_SYNCHRONIZED);
     enter(XR_SESSION_STATE_STOPPING);
 }

@@ -17,6 +17,7 @@ class Lifecycle {
     /// Between xrBeginSession and xrEndSession.
     bool running() const { return running_; }
     bool stopping() const { return state_ == XR_SESSION_STATE_STOPPING; }
+    bool lost() const { return state_ == XR_SESSION_STATE_LOSS_PENDING; }
     bool visible() const { return state_ == XR_SESSION_STATE_VISIBLE || focused(); }
     bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED; }
 
@@ -26,6 +27,8 @@ class Lifecycle {
     void begin();
     /// Step by step to what the script wants of a running session that was not asked to stop.
     void show(Script::Presence presence);
+    /// LOSS_PENDING, from any state, for good.
+    void lose();
     /// Step by step to STOPPING. Refuses with XR_ERROR_SESSION_NOT_RUNNING.
     void ask_to_stop();
     /// xrEndSession. Refuses with XR_ERROR_SESSION_NOT_RUNNING or XR_ERROR_SESSION_NOT_STOPPING. IDLE,

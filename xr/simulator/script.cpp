@@ -12,12 +12,15 @@ namespace foveray::simulator {
 std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
     static constexpr std::pair<std::string_view, EventKind> names[] = {
         {"exit", EventKind::Exit},
+        {"session_loss", EventKind::SessionLoss},
         {"focus_lost", EventKind::FocusLost},
         {"focus_gained", EventKind::FocusGained},
         {"visibility_lost", EventKind::VisibilityLost},
         {"visibility_gained", EventKind::VisibilityGained},
         {"head_tracking_lost", EventKind::HeadLost},
         {"head_tracking_gained", EventKind::HeadGained},
+        {"visibility_mask_removed", EventKind::MaskRemoved},
+        {"visibility_mask_restored", EventKind::MaskRestored},
         {"recenter", EventKind::Recentre},
     };
     for (const auto& [known, kind] : names) {
@@ -93,9 +96,23 @@ Script::Presence Script::presence_at(Nanoseconds time) const {
     return focused ? Presence::Focused : Presence::Visible;
 }
 
-bool Script::exit_asked_at(Nanoseconds time) const {
-    return std::ranges::any_of(
-        events_, [&](const Event& event) { return event.time <= time && event.kind == EventKind::Exit; });
+bool Script::has_happened(EventKind kind, Nanoseconds time) const {
+    return std::ranges::any_of(events_,
+                               [&](const Event& event) { return event.time <= time && event.kind == kind; });
+}
+
+bool Script::exit_asked_at(Nanoseconds time) const { return has_happened(EventKind::Exit, time); }
+
+bool Script::session_lost_at(Nanoseconds time) const { return has_happened(EventKind::SessionLoss, time); }
+
+bool Script::has_visibility_mask_at(Nanoseconds time) const {
+    bool has_mask = true;
+    for (const Event& event : events_) {
+        if (event.time > time) break;
+        if (event.kind == EventKind::MaskRemoved) has_mask = false;
+        if (event.kind == EventKind::MaskRestored) has_mask = true;
+    }
+    return has_mask;
 }
 
 Pose Script::upright_head_at(Nanoseconds time) const {

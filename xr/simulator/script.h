@@ -40,6 +40,9 @@ class Script {
 
     Presence presence_at(Nanoseconds time) const;
     bool exit_asked_at(Nanoseconds time) const;
+    bool session_lost_at(Nanoseconds time) const;
+    /// The profile's hidden area is told to clients.
+    bool has_visibility_mask_at(Nanoseconds time) const;
     /// The local space: upright, at the head's place when the session began or was last recentred.
     Pose stage_from_local_at(Nanoseconds time) const;
     /// Times of recentring in (after, until].
@@ -48,12 +51,15 @@ class Script {
   private:
     enum class EventKind {
         Exit,
+        SessionLoss,
         FocusLost,
         FocusGained,
         VisibilityLost,
         VisibilityGained,
         HeadLost,
         HeadGained,
+        MaskRemoved,
+        MaskRestored,
         Recentre
     };
     struct Event {
@@ -61,6 +67,7 @@ class Script {
         EventKind kind;
     };
     static std::optional<EventKind> event_kind(std::string_view name);
+    bool has_happened(EventKind kind, Nanoseconds time) const;
     Pose upright_head_at(Nanoseconds time) const;
 
     HeadsetProfile profile_;

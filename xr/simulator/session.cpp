@@ -47,6 +47,7 @@ void Session::announce(XrSessionState state) {
 void Session::begin(XrViewConfigurationType configuration) {
     const std::lock_guard lock(mutex_);
     lifecycle_.begin();
+    configuration_ = configuration;
     view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
     waited_.reset();
     begun_.reset();
@@ -60,7 +61,17 @@ void Session::end() {
 
 void Session::request_exit() {
     const std::lock_guard lock(mutex_);
+    verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
     lifecycle_.ask_to_stop();
+}
+
+void Session::change_visibility_mask(bool has_mask) {
+    if (has_visibility_mask_.exchange(has_mask) == has_mask) return;
+    if (!instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) return;
+    for (std::uint32_t view = 0; view < view_count_; ++view) {
+        instance_->push_event(XrEventDataVisibilityMaskChangedKHR{
+            XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR, nullptr, handle_of(*this), configuration_, view});
+    }
 }
 
 void Session::play_script(const FrameTime& frame) {
@@ -75,6 +86,8 @@ void Session::play_script(const FrameTime& frame) {
             to_xr(inverse(previous) * next)});
     }
     played_until_ = time;
+    change_visibility_mask(script.has_visibility_mask_at(time));
+    if (script.session_lost_at(time)) lifecycle_.lose();
     if (script.ended(frame.index) || script.exit_asked_at(time)) {
         lifecycle_.ask_to_stop();
     } else {
@@ -87,6 +100,7 @@ Session::WaitedFrame Session::wait_frame() {
     const auto verify_running = [&] {
         verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
         verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
+        verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
     };
     verify_running();
     frame_taken_.wait(lock, [&] { return destroyed_ || !lifecycle_.running() || (!waiting_ && !waited_); });

@@ -37,6 +37,8 @@ class Session : public Object {
     bool focused() const;
     /// Views of the configuration that the session was begun with.
     std::uint32_t view_count() const { return view_count_; }
+    /// The script may take the visibility mask away.
+    bool has_visibility_mask() const { return has_visibility_mask_; }
 
     void begin(XrViewConfigurationType configuration);
     void end();
@@ -55,6 +57,7 @@ class Session : public Object {
   private:
     void announce(XrSessionState state);
     void play_script(const FrameTime& frame);
+    void change_visibility_mask(bool has_mask);
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
@@ -63,9 +66,11 @@ class Session : public Object {
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;
+    std::atomic<bool> has_visibility_mask_ = true;
     mutable std::mutex mutex_;  // what follows
     std::condition_variable frame_taken_;
     Lifecycle lifecycle_;
+    XrViewConfigurationType configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     bool destroyed_ = false, waiting_ = false;
     std::optional<FrameTime> waited_, begun_;
     Nanoseconds played_until_ = -1;  // session time

@@ -139,7 +139,9 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetVisibilityMaskKHR(XrSession session, XrViewC
         const HeadsetProfile& profile = object->instance().profile();
         const auto profiles = views_of(profile, type);
         verify(view < profiles.size());
-        const VisibilityMask made = visibility_mask(profile, profiles[view], mask_type);
+        const VisibilityMask made = object->has_visibility_mask()
+                                        ? visibility_mask(profile, profiles[view], mask_type)
+                                        : VisibilityMask{};
         enumerate(static_cast<std::uint32_t>(made.vertices.size()), mask->vertexCapacityInput,
                   &mask->vertexCountOutput, mask->vertices, [&](XrVector2f& target, std::uint32_t i) {
                       target = {made.vertices[i].x, made.vertices[i].y};

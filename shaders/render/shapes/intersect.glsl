@@ -13,6 +13,8 @@ hitAttributeEXT ShapeHit hit;
 bool report_surface(float t, vec3 normal, bool inside, float error, uint detail) {
     bool culls = (gl_IncomingRayFlagsEXT & gl_RayFlagsCullBackFacingTrianglesEXT) != 0;
     if (inside && culls && (record.shape.flags & SHAPE_SINGLE_SIDED) != 0) return false;
+    // Some drivers (Mesa's lavapipe 25) lose the nearest hit's attributes to those of a report they refuse.
+    if (!(t >= gl_RayTminEXT && t <= gl_RayTmaxEXT)) return false;
     hit = ShapeHit(normal, error, detail);
     return reportIntersectionEXT(t, inside ? HIT_INSIDE : HIT_OUTSIDE);
 }

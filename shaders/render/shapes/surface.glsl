@@ -27,6 +27,7 @@ void fill_surface(ShapeHeader shape, vec3 outward, uint material_id, vec4 color,
     surface.previous_position = instance.previous_world_from_object * vec4(hit_position(), 1.0);
     // A point along a ray is off by the rounding of the way to it.
     surface.position_error = error + 4e-7 * gl_HitTEXT;
+    surface.thickness = 0.0;
     surface.geometric_normal = normal;
     // A found normal may turn away from the viewer a little; triangles' shading normals are lifted likewise.
     const float horizon = 0.01;

@@ -28,6 +28,7 @@ SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
       counters_(device, slots) {}
 
 SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_from_stage) {
+    SampleGrid result;
     shared::SampleGrid grid{};
     grid.kind = shared::GRID_PIXELS;
     grid.view_count = static_cast<std::uint32_t>(views.size());
@@ -36,12 +37,12 @@ SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_
     for (std::size_t i = 0; i < views.size(); ++i) {
         grid.views[i] = view_params(views[i], world_from_stage);
         grid.views[i].first_sample = grid.sample_count;
+        result.blocks.push_back({grid.sample_count, views[i].size.x, views[i].size.y});
         grid.sample_count += views[i].size.x * views[i].size.y;
     }
     ring_.wait();
     grid_ = gpu::Buffer(device_, "test grid", sizeof grid, gpu::Residence::Upload);
     grid_.write(gpu::bytes_of(grid));
-    SampleGrid result;
     result.grids = grid_.address();
     result.kind = grid.kind;
     result.sample_count = grid.sample_count;

@@ -1,4 +1,5 @@
 #include "app/command_line.h"
+#include "app/program.h"
 
 #include <sstream>
 #include <stdexcept>
@@ -117,6 +118,8 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
         const std::string text = parse<Notice>({command, "--help"}).text;
         EXPECT_NE(text.find("Example:\n  foveray " + command), std::string::npos) << text;
         EXPECT_NE(text.find("Usage: foveray " + command), std::string::npos) << text;
+        EXPECT_EQ(text.find(" :"), std::string::npos) << text;
+        EXPECT_NE(text.find("--log-level trace|debug|info|warn|error|off"), std::string::npos) << text;
     }
     EXPECT_EQ(parse<Notice>({"--version"}).text, "foveray " FOVERAY_VERSION "\n");
 }

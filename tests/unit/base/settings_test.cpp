@@ -1,5 +1,6 @@
 #include "base/settings.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -25,6 +26,17 @@ TEST(Settings, EveryKindOfValueIsSetAndWritten) {
         Settings copy = s;
         EXPECT_NO_THROW(set(copy, std::string(info.key) + "=" + value_text(s, info))) << info.key;
     }
+}
+
+TEST(Settings, NumbersInJsonAreAsShortAsTheyReadBack) {
+    const auto text = [](std::string_view key) {
+        const auto table = settings_table();
+        return value_json(Settings{}, *std::ranges::find(table, key, &SettingInfo::key)).dump();
+    };
+    EXPECT_EQ(text("foveation.angular_ratio"), "0.9746");
+    EXPECT_EQ(text("lighting.shadow_samples"), "4");
+    EXPECT_EQ(text("lighting.shadows"), "true");
+    EXPECT_EQ(text("resolve.filter"), "\"bicubic\"");
 }
 
 TEST(Settings, KeysAreUniqueAndDefaultsAreInRange) {

@@ -5,79 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/image.h"
-#include "base/session.h"
+#include "base/log.h"
 #include "tests/fakes/expect_fault.h"
-#include "tests/fakes/temporary_folder.h"
+#include "tests/xr/client/headset_fixture.h"
 
 namespace foveray::xr {
 namespace {
-
-constexpr Nanoseconds period = 100'000'000;
-
-class HeadsetTest : public testing::Test {
-  protected:
-    void SetUp() override {
-        session_.headset = "ci";
-        session_.rate_hz = 10;
-        session_.frames = 6;
-        session_.head = {{0, {quat(1, 0, 0, 0), {0, 1.5f, 0}}},
-                         {5 * period, {glm::angleAxis(0.5f, vec3(0, 1, 0)), {0.5f, 1.5f, 0}}}};
-        const vec3 aside = glm::normalize(vec3(0.2f, -0.1f, -1));
-        session_.gaze = {{0, true, {}, aside}, {3 * period, false, {}, aside}, {4 * period, true, {}, aside}};
-        ControllerState hand;
-        hand.valid = true;
-        hand.trigger = 1.0f;  // the profile's controller has only select, which the trigger presses
-        hand.stage_from_grip.position = {0.3f, 1.0f, -0.4f};
-        hand.stage_from_aim = hand.stage_from_grip;
-        session_.controllers = {{0, 1, hand}};
-    }
-    void TearDown() override { ::unsetenv("XR_RUNTIME_JSON"); }
-
-    SimulatorOptions options() {
-        write_session(folder_.path() / "session", session_);
-        SimulatorOptions simulator;
-        simulator.session = folder_.path() / "session";
-        simulator.virtual_time = true;
-        return simulator;
-    }
-
-    struct Played {
-        std::vector<Frame> frames;
-        bool ended = false;
-        std::vector<std::string> messages;
-    };
-    /// Plays to the end. `each` may record a submission.
-    template <typename Each>
-    Played play(const SimulatorOptions& simulator, BlendMode blend, Each each) {
-        Played played;
-        Headset headset(RuntimeChoice::Simulator, simulator);
-        const gpu::Device device({.validation = true}, headset.device_source());
-        headset.start(device, blend, 0.1f, 50.0f);
-        std::vector<gpu::Buffer> buffers;  // the submission's
-        gpu::FrameRing ring(device, 1);
-        for (int turns = 0; turns < 1000; ++turns) {
-            const Headset::State state = headset.poll();
-            played.ended = state == Headset::State::Ended;
-            if (played.ended) break;
-            if (state == Headset::State::Waiting) continue;
-            const Frame frame = headset.begin_frame();
-            if (frame.should_render) each(headset, device, ring, frame, buffers);
-            headset.end_frame(frame);
-            played.frames.push_back(frame);
-        }
-        ring.wait();
-        headset.stop();
-        played.messages = device.validation_messages();
-        return played;
-    }
-    Played play(const SimulatorOptions& simulator) {
-        return play(simulator, BlendMode::Opaque, [](auto&&...) {});
-    }
-
-    fakes::TemporaryFolder folder_;
-    Session session_;
-};
 
 TEST_F(HeadsetTest, FollowsTheScriptFromFirstFrameToExit) {
     const Played played = play(options());
@@ -136,43 +69,6 @@ TEST_F(HeadsetTest, ReadsGazeBlinksAndControllers) {
     }
 }
 
-TEST_F(HeadsetTest, ShowsWhatWasSubmitted) {
-    SimulatorOptions simulator = options();
-    simulator.capture = folder_.path() / "shown";
-    simulator.capture_frames = {2, 3};
-    const Played played = play(
-        simulator, BlendMode::Opaque,
-        [&](Headset& headset, const gpu::Device& device, gpu::FrameRing& ring, const Frame& frame,
-            std::vector<gpu::Buffer>& kept) {
-            const gpu::Commands cmd = ring.begin();
-            kept.clear();
-            std::vector<ViewPicture> pictures;
-            for (std::size_t i = 0; i < frame.views.size(); ++i) {
-                const vk::DeviceSize size = vk::DeviceSize{4} * frame.views[i].size.x * frame.views[i].size.y;
-                kept.emplace_back(device, "colour", size, gpu::Residence::Device);
-                kept.emplace_back(device, "depth", size, gpu::Residence::Device);
-            }
-            for (std::size_t i = 0; i < frame.views.size(); ++i) {
-                const std::uint32_t color = 0xFF000000u | (40u * static_cast<std::uint32_t>(i) + 30u);
-                cmd->fillBuffer(kept[2 * i].vk(), 0, VK_WHOLE_SIZE, color);
-                cmd->fillBuffer(kept[2 * i + 1].vk(), 0, VK_WHOLE_SIZE, 0x3F000000u);
-                pictures.push_back({kept[2 * i].vk(), 0, kept[2 * i + 1].vk(), 0});
-            }
-            cmd.barrier(gpu::Access::TransferWrite, gpu::Access::TransferRead);
-            headset.record_submission(cmd, frame, pictures);
-            ring.submit();
-        });
-    EXPECT_TRUE(played.messages.empty()) << played.messages.front();
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        const Image shown =
-            read_image(simulator.capture / ("frame_00002_view" + std::to_string(i) + ".png"), 3);
-        EXPECT_EQ(uvec2(shown.width, shown.height), played.frames[2].views[i].size);
-        EXPECT_EQ(*shown.at(shown.width / 2, shown.height / 2), 40 * i + 30);
-    }
-    EXPECT_FALSE(std::filesystem::exists(simulator.capture / "frame_00001_view0.png"));
-    EXPECT_TRUE(std::filesystem::exists(simulator.capture / "frame_00002_left.png"));
-}
-
 TEST_F(HeadsetTest, LivesThroughLostTrackingAndVisibilityAndEndsOnRequest) {
     session_.frames = 20;
     session_.events = {{2 * period, "head_tracking_lost", ""},
@@ -203,6 +99,89 @@ TEST_F(HeadsetTest, EndsWhenAskedTo) {
     });
     EXPECT_TRUE(played.ended);
     EXPECT_LT(played.frames.size(), 10u);
+}
+
+TEST_F(HeadsetTest, EndsWithAWordWhenTheRuntimeLosesTheHeadset) {
+    session_.frames = 20;
+    session_.events = {{3 * period, "session_loss", ""}};
+    log::init("info");
+    testing::internal::CaptureStderr();
+    const Played played = play(options());
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(played.ended);
+    EXPECT_EQ(played.frames.size(), 4u) << "the frame under way is the last";
+    EXPECT_TRUE(played.messages.empty());
+    EXPECT_NE(said.find("losing the headset"), std::string::npos) << said;
+}
+
+TEST_F(HeadsetTest, CallsAfterTheLossSaySo) {
+    session_.frames = 20;
+    session_.events = {{0, "session_loss", ""}};
+    Headset headset(RuntimeChoice::Simulator, options());
+    const gpu::Device device({.validation = true}, headset.device_source());
+    const StopAtEnd stop_at_end(headset);
+    headset.start(device, BlendMode::Opaque, 0.1f, 50.0f);
+    ASSERT_EQ(headset.poll(), Headset::State::Running);
+    headset.end_frame(headset.begin_frame());
+    fakes::expect_fault([&] { headset.begin_frame(); }, ExitCode::Missing, "lost the headset");
+}
+
+TEST_F(HeadsetTest, ReadsTheVisibilityMaskAgainWhenItChanges) {
+    session_.headset = "ci-stereo";
+    session_.frames = 8;
+    session_.events = {{2 * period, "visibility_mask_removed", ""},
+                       {5 * period, "visibility_mask_restored", ""}};
+    SimulatorOptions simulator = options();
+    simulator.profile = "ci-stereo";
+    std::vector<std::vector<HiddenMesh>> seen;
+    play(simulator, BlendMode::Opaque,
+         [&](Headset& headset, auto&&...) { seen.push_back(headset.hidden_meshes()); });
+    ASSERT_EQ(seen.size(), 8u);
+    for (std::size_t view = 0; view < 2; ++view) {
+        // A change comes with the wait for a frame and is read before the next.
+        const HiddenMesh &first = seen[0][view], &none = seen[4][view], &again = seen[6][view];
+        EXPECT_FALSE(first.indices.empty());
+        EXPECT_EQ(seen[2][view].version, first.version);
+        EXPECT_TRUE(none.indices.empty() && none.vertices.empty());
+        EXPECT_EQ(again.indices, first.indices);
+        EXPECT_EQ(again.vertices, first.vertices);
+        EXPECT_NE(none.version, first.version);
+        EXPECT_NE(again.version, none.version);
+        EXPECT_NE(again.version, first.version);
+    }
+}
+
+TEST_F(HeadsetTest, DescribesItselfAsAProfile) {
+    for (const std::string name : {"ci", "ci-stereo"}) {
+        session_.headset = name;
+        SimulatorOptions simulator = options();
+        simulator.profile = name;
+        HeadsetProfile found;
+        play(simulator, BlendMode::Opaque,
+             [&](Headset& headset, const gpu::Device&, gpu::FrameRing&, const Frame& frame, auto&&...) {
+                 found = headset.profile(frame);
+             });
+        const HeadsetProfile truth = read_headset_profile(name);
+        const std::filesystem::path file = folder_.path() / "headset.json";
+        write_headset_profile(file, found);
+        const HeadsetProfile read = read_headset_profile(file);
+        EXPECT_EQ(read.display_name, truth.display_name);
+        EXPECT_NEAR(read.rate_hz, session_.rate_hz, 1e-9);
+        EXPECT_NEAR(read.ipd, truth.ipd, 1e-6f);
+        EXPECT_EQ(read.eye_tracking, truth.eye_tracking);
+        EXPECT_EQ(read.blend_modes, truth.blend_modes);
+        EXPECT_NEAR(read.foveated_focus_scale, truth.foveated_focus_scale, 0.01f);
+        ASSERT_EQ(read.views.size(), truth.views.size());
+        for (std::size_t i = 0; i < truth.views.size(); ++i) {
+            EXPECT_EQ(read.views[i].eye, truth.views[i].eye);
+            EXPECT_EQ(read.views[i].role, truth.views[i].role);
+            EXPECT_EQ(read.views[i].size, truth.views[i].size);
+            EXPECT_NEAR(read.views[i].fov.left, truth.views[i].fov.left, 1e-6f);
+            EXPECT_NEAR(read.views[i].fov.right, truth.views[i].fov.right, 1e-6f);
+            EXPECT_NEAR(read.views[i].fov.up, truth.views[i].fov.up, 1e-6f);
+            EXPECT_NEAR(read.views[i].fov.down, truth.views[i].fov.down, 1e-6f);
+        }
+    }
 }
 
 TEST_F(HeadsetTest, StereoHeadsetsHaveTwoViewsAndNoGaze) {

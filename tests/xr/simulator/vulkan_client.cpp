@@ -69,11 +69,11 @@ VulkanClient::Implementation::Implementation(XrInstance xr, VulkanEnable enable)
     } else {
         make_itself(xr, system, instance_info, device_info);
     }
-    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-    messenger = instance.createDebugUtilsMessengerEXT({{},
-                                                       Severity::eWarning | Severity::eError,
-                                                       vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
-                                                       &on_message});
+    // As C's struct, because the callback's type differs between versions of Vulkan-Hpp.
+    messenger = instance.createDebugUtilsMessengerEXT(VkDebugUtilsMessengerCreateInfoEXT{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT, nullptr, 0,
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT,
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT, &on_message, nullptr});
     queue = device.getQueue(0, 0);
     pool = device.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, 0});
     binding = {XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR,

@@ -1,0 +1,194 @@
+#include "app/bench/run_bench.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "app/program.h"
+#include "render/user_shapes/shape_store.h"
+
+namespace foveray::app {
+namespace {
+
+constexpr int warm_up_frames = 5;
+
+struct Result {
+    std::string name;
+    std::vector<std::pair<std::string, Spread>> stages;
+    Spread gpu_ms, cpu_ms;
+    std::size_t frames = 0;
+    render::RayCounts rays{};
+    std::uint64_t memory_bytes = 0;
+};
+
+double total_of(const ShotCost& cost) {
+    double sum = 0.0;
+    for (const gpu::StageTime& stage : cost.stages) sum += stage.milliseconds;
+    return sum;
+}
+
+Shot smaller(Shot shot) {
+    for (View& view : shot.views) view.size = glm::max(view.size / 4u, uvec2(1));
+    shot.settings.resolution_scale *= 0.25f;
+    return shot;
+}
+
+std::vector<ShotCost> measure(Offscreen& offscreen, const BenchRow& row, const BenchOptions& options) {
+    Shot shot = options.quick ? smaller(row.shot) : row.shot;
+    std::vector<ShotCost> costs;
+    const auto start = std::chrono::steady_clock::now();
+    const auto enough = [&](int frame) {
+        if (options.quick) return frame >= 3;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        return frame >= warm_up_frames + 3 && elapsed.count() > options.seconds;
+    };
+    for (int frame = 0; !enough(frame); ++frame) {
+        shot.time = static_cast<Nanoseconds>(frame * row.frame_ms * 1e6);
+        if (auto cost = offscreen.draw(shot)) costs.push_back(std::move(*cost));
+    }
+    for (ShotCost& cost : offscreen.finish()) costs.push_back(std::move(cost));
+    const std::size_t skipped =
+        options.quick ? 1 : warm_up_frames;  // a driver may still compile in the first
+    costs.erase(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(skipped));
+    return costs;
+}
+
+Result summarize(const BenchRow& row, const std::vector<ShotCost>& costs, std::uint64_t memory) {
+    const auto spread = [&](const auto& value) {
+        std::vector<double> values;
+        for (const ShotCost& cost : costs) values.push_back(value(cost));
+        return spread_of(std::move(values));
+    };
+    Result result;
+    result.name = row.name;
+    result.frames = costs.size();
+    result.gpu_ms = spread(total_of);
+    result.cpu_ms = spread([](const ShotCost& c) { return c.cpu_ms; });
+    result.rays = costs.back().rays;
+    result.memory_bytes = memory;
+    for (std::size_t i = 0; i < costs.front().stages.size(); ++i) {
+        result.stages.emplace_back(costs.front().stages[i].name,
+                                   spread([&](const ShotCost& c) { return c.stages[i].milliseconds; }));
+    }
+    return result;
+}
+
+/// Letters, digits and single hyphens.
+std::string file_name(const std::string& row) {
+    std::string name;
+    for (const char c : row) {
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') {
+            name += c;
+        } else if (!name.empty() && name.back() != '-' && c != '\'') {
+            name += '-';
+        }
+    }
+    return name;
+}
+
+Result run_row(const gpu::Device& device, user_shapes::ShapeStore& shapes, const BenchRow& row,
+               const BenchOptions& options) {
+    const std::uint64_t before = gpu::used_memory(device);
+    Offscreen offscreen(device, *row.scene, 2, shapes.prepare(*row.scene));
+    const std::vector<ShotCost> costs = measure(offscreen, row, options);
+    const std::uint64_t memory = gpu::used_memory(device) - before;
+    if (!options.out.empty()) {
+        for (std::size_t view = 0; view < row.shot.views.size(); ++view) {
+            write_png(options.out / fmt::format("{}_view{}.png", file_name(row.name), view),
+                      offscreen.picture(view));
+        }
+    }
+    return summarize(row, costs, memory);
+}
+
+Json to_json(const Spread& spread) { return {{"median", spread.median}, {"p99", spread.p99}}; }
+
+Json to_json(const Result& r) {
+    Json stages = Json::object();
+    for (const auto& [name, time] : r.stages) stages[name] = to_json(time);
+    return {{"row", r.name},
+            {"gpu_ms", to_json(r.gpu_ms)},
+            {"cpu_ms", to_json(r.cpu_ms)},
+            {"stages_ms", stages},
+            {"frames", r.frames},
+            {"memory_bytes", r.memory_bytes},
+            {"rays",
+             {{"primary", r.rays[shared::COUNT_PRIMARY]},
+              {"shadow", r.rays[shared::COUNT_SHADOW]},
+              {"reflection", r.rays[shared::COUNT_REFLECTION]},
+              {"transparent", r.rays[shared::COUNT_TRANSPARENT]}}}};
+}
+
+void print_header() {
+    std::cout << "| row | GPU ms | 99 % | primary | lighting | resolve | other | Mrays | CPU ms | MB |\n"
+              << "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+}
+
+void print(const Result& r) {
+    double primary = 0.0, lighting = 0.0, resolve = 0.0, other = 0.0;
+    for (const auto& [name, time] : r.stages) {
+        double& sum = name == "primary"    ? primary
+                      : name == "lighting" ? lighting
+                      : name == "resolve"  ? resolve
+                                           : other;
+        sum += time.median;
+    }
+    std::uint64_t rays = 0;
+    for (const std::uint64_t kind : r.rays) rays += kind;
+    std::cout
+        << fmt::format(
+               "| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n",
+               r.name, r.gpu_ms.median, r.gpu_ms.p99, primary, lighting, resolve, other,
+               static_cast<double>(rays) * 1e-6, r.cpu_ms.median,
+               static_cast<double>(r.memory_bytes) / (1 << 20))
+        << std::flush;
+}
+
+}  // namespace
+
+Spread spread_of(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::ranges::sort(values);
+    const auto at = [&](double part) {
+        return values[static_cast<std::size_t>(std::llround(part * static_cast<double>(values.size() - 1)))];
+    };
+    return {at(0.5), at(0.99)};
+}
+
+ExitCode run_bench(const BenchOptions& options) {
+    gpu::DeviceOptions device_options;
+    device_options.index = options.gpu;
+    device_options.validation = validation_wanted();
+    const gpu::Device device(device_options);
+    if (!options.json) std::cout << device.name() << ", " << device.driver() << "\n\n";
+
+    user_shapes::ShapeStore shapes({.gpu = options.gpu, .validation = validation_wanted()});
+    Json tables = Json::array();
+    for (const BenchTable& table : bench_tables()) {
+        const auto& wanted = options.tables;
+        if (!wanted.empty() && std::ranges::find(wanted, table.name) == wanted.end()) continue;
+        Json rows = Json::array();
+        if (!options.json) print_header();
+        for (BenchRow row : table.rows()) {
+            if (row.name.find(options.rows) == std::string::npos) continue;
+            for (const std::string& assignment : options.assignments) set(row.shot.settings, assignment);
+            const Result result = run_row(device, shapes, row, options);
+            if (!options.json) print(result);
+            rows.push_back(to_json(result));
+        }
+        tables.push_back({{"table", table.name}, {"rows", rows}});
+    }
+    const Json report = {{"device", device.name()}, {"driver", device.driver()}, {"tables", tables}};
+    if (options.json) std::cout << report.dump(2) << '\n';
+    if (!options.out.empty()) {
+        std::filesystem::create_directories(options.out);
+        write_json(options.out / "bench.json", report);
+    }
+    return device.validation_messages().empty() ? ExitCode::Done : ExitCode::Internal;
+}
+
+}  // namespace foveray::app

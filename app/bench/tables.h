@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/bench/table.h"
+
+/// The rows of each table.
+namespace foveray::app {
+
+std::vector<BenchRow> procedural_rows();
+
+}  // namespace foveray::app

@@ -1,0 +1,155 @@
+#include "app/offscreen/offscreen.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "render/polar_map.h"
+
+namespace foveray::app {
+namespace {
+
+constexpr float room_distance = 3.0f;
+
+Pose pose_of(const mat4& matrix) {
+    return {
+        glm::normalize(glm::quat_cast(mat3(glm::normalize(vec3(matrix[0])), glm::normalize(vec3(matrix[1])),
+                                           glm::normalize(vec3(matrix[2]))))),
+        vec3(matrix[3])};
+}
+
+Frame frame_of(const Shot& shot, std::uint64_t index) {
+    Frame frame;
+    frame.index = index;
+    frame.time = frame.display_time = shot.time;
+    frame.should_render = true;
+    frame.views = shot.views;
+    return frame;
+}
+
+}  // namespace
+
+Offscreen::Offscreen(const gpu::Device& device, const scene::Scene& scene, std::uint32_t frames_in_flight,
+                     const render::UserShaders& user_shaders)
+    : device_(device),
+      ring_(device, frames_in_flight),
+      textures_(device),
+      counters_(device, frames_in_flight),
+      pipeline_(device, textures_, frames_in_flight, scene, user_shaders),
+      animator_(scene),
+      gpu_scene_(device, textures_, scene, frames_in_flight),
+      accel_scene_(device, gpu_scene_, pipeline_, frames_in_flight),
+      room_(device, textures_, frames_in_flight, std::nullopt, {}, room_distance),
+      sampling_(device, frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
+      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      resolve_(device, textures_),
+      compositor_(device, textures_),
+      pending_cpu_ms_(frames_in_flight) {}
+
+std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
+    const gpu::Commands cmd = ring_.begin();
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t slot = ring_.slot();
+    std::optional<ShotCost> earlier = collect(slot);
+    const Frame frame = frame_of(shot, frame_++);
+    const Settings& settings = shot.settings;
+    const render::Fovea fovea{shot.gaze_origin, shot.gaze_direction, 0.0f, true};
+
+    counters_.clear(cmd);
+    const auto& changes = animator_.advance(shot.time);
+    const auto scene = gpu_scene_.record(cmd, slot, changes, {});
+    accel_scene_.record(cmd, slot, scene, pipeline_);
+    const auto room = room_.record(cmd, slot, {}, settings);
+    const auto grid =
+        sampling_.record(cmd, slot, {frame, {}, fovea, {}, shot.acuity, settings, shot.every_pixel});
+    render::LightLayers light;
+    for (std::uint32_t sub_sample = 0; sub_sample < grid.sub_sample_count; ++sub_sample) {
+        const auto hits = primary_.record(cmd, grid, sub_sample, counters_.address());
+        light = lighting_.accumulate(
+            cmd, {grid, hits.surfaces, scene.scene_data, 0, counters_.address(), settings}, sub_sample);
+    }
+    images_ = resolve_.record(cmd, light, grid, frame.views, settings);
+    compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
+                       passthrough::Background::Environment, settings);
+    counters_.read_back(cmd, slot);
+    ring_.submit();
+    const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - start;
+    pending_cpu_ms_[slot] = cpu.count();
+    return earlier;
+}
+
+std::optional<ShotCost> Offscreen::collect(std::uint32_t slot) {
+    if (!pending_cpu_ms_[slot]) return std::nullopt;
+    ShotCost cost{ring_.stage_times(), counters_.counts(slot), *pending_cpu_ms_[slot]};
+    pending_cpu_ms_[slot].reset();
+    return cost;
+}
+
+std::vector<ShotCost> Offscreen::finish() {
+    std::vector<ShotCost> costs;
+    for (std::uint32_t i = 0; i < ring_.size(); ++i) {
+        ring_.begin();  // waits for the slot's frame and reads its times
+        if (auto cost = collect(ring_.slot())) costs.push_back(std::move(*cost));
+        ring_.submit();
+    }
+    ring_.wait();
+    return costs;
+}
+
+Image Offscreen::picture(std::size_t view) {
+    ring_.wait();
+    const uvec2 size = images_.images[view].size;
+    Image image(size.x, size.y, 4);
+    gpu::Buffer readback(device_, "picture", image.pixels.size(), gpu::Residence::Readback);
+    gpu::submit_and_wait(device_, [&](const gpu::Commands& cmd) {
+        cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
+        cmd->copyBuffer(images_.buffers[view].color->vk(), readback.vk(),
+                        vk::BufferCopy(0, 0, image.pixels.size()));
+        cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);
+    });
+    readback.invalidate();
+    const auto bytes = readback.mapped_as<std::uint8_t>();
+    std::copy_n(bytes.begin(), image.pixels.size(), image.pixels.begin());
+    return image;
+}
+
+std::optional<Pose> camera_pose(const scene::Scene& scene) {
+    scene::SceneAnimator animator(scene);
+    const scene::SceneChanges& start = animator.advance(0);
+    for (scene::NodeId id = 0; id < scene.nodes.size(); ++id) {
+        if (scene.nodes[id].camera) return pose_of(start.world_from_node[id]);
+    }
+    return std::nullopt;
+}
+
+View camera_view(const scene::Scene& scene, uvec2 size) {
+    View view;
+    view.size = size;
+    view.stage_from_eye = camera_pose(scene).value_or(Pose{});
+    const float vertical = scene.cameras.empty() ? radians(50.0f) : scene.cameras.front().vertical_fov;
+    const float up = 0.5f * vertical;
+    const float right = std::atan(std::tan(up) * static_cast<float>(size.x) / static_cast<float>(size.y));
+    view.fov = {-right, right, up, -up};
+    return view;
+}
+
+std::vector<View> headset_views(const scene::Scene& scene, const HeadsetProfile& profile) {
+    const Pose stage_from_head = camera_pose(scene).value_or(Pose{});
+    std::vector<View> views;
+    for (const HeadsetProfile::ViewProfile& v : profile.views) {
+        const float side = v.eye == Eye::Left ? -0.5f : 0.5f;
+        const Pose head_from_eye{quat(1.0f, 0.0f, 0.0f, 0.0f), vec3(side * profile.ipd, 0.0f, 0.0f)};
+        views.push_back({v.eye, v.role, stage_from_head * head_from_eye, v.fov, v.size});
+    }
+    return views;
+}
+
+void set_polar_size(Shot& shot, uvec2 size) {
+    const Acuity acuity = render::effective_acuity(shot.acuity, shot.settings);
+    const float samples = render::make_polar_map(acuity, 1.0f, 1.0f).radius_outer;
+    shot.settings.resolution_scale =
+        (static_cast<float>(size.x) - 0.5f) / samples;  // the width is rounded up
+    shot.settings.angular_ratio = static_cast<float>(size.y) / static_cast<float>(size.x);
+}
+
+}  // namespace foveray::app

@@ -1,0 +1,81 @@
+#include <csignal>
+#include <iostream>
+#include <string_view>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "render/user_shapes/examination.h"
+#include "render/user_shapes/probe.h"
+#include "render/user_shapes/probe_frame.h"
+#include "render/user_shapes/probe_request.h"
+
+namespace foveray::user_shapes {
+namespace {
+
+/// The line to the parent: drivers may print where standard output was.
+class Parent {
+  public:
+    Parent() : output_(::dup(STDOUT_FILENO)) { ::dup2(STDERR_FILENO, STDOUT_FILENO); }
+    void say(const std::string& line) const {
+        const std::string text = line + '\n';
+        for (std::size_t done = 0; done < text.size();) {
+            const ssize_t size = ::write(output_, text.data() + done, text.size() - done);
+            if (size <= 0) return;
+            done += static_cast<std::size_t>(size);
+        }
+    }
+
+  private:
+    int output_;
+};
+
+/// The reason to refuse the shape.
+std::optional<std::string> examine(const Json& json, const Parent& parent) {
+    const ProbeRequest request = from_json(json);
+    gpu::DeviceOptions options;
+    options.validation = json["validation"];
+    if (!json["gpu"].is_null()) options.index = json["gpu"].get<std::uint32_t>();
+    const gpu::Device device(options);
+    gpu::TextureTable textures(device);
+    const scene::Shape& first = request.moments.front().shape;
+    Examination examination(device, textures, request.user);
+    examination.warm_up(first);
+    parent.say(probe_runs);
+    for (const ProbeMoment& moment : request.moments) {
+        if (auto reason = examination.run(moment.shape, moment.shape.values, moment.seconds)) return reason;
+    }
+    parent.say(probe_prepares);
+    ProbeFrame frame(device, textures, request.user, first);
+    frame.warm_up();
+    parent.say(probe_runs);
+    if (auto reason = frame.run()) return reason;
+    if (!device.validation_messages().empty()) return "makes the validation layer complain";
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> serve_probe(int argc, const char* const* argv) {
+    if (argc != 2 || std::string_view(argv[1]) != probe_command) return std::nullopt;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a shape that hangs must not outlive whom it was probed for
+    log::init("warn");
+    const Parent parent;
+    Json answer = Json::object();
+    try {
+        const auto reason = examine(Json::parse(std::cin), parent);
+        if (reason) answer["refused"] = *reason;
+    } catch (const Fault& fault) {
+        const std::string sentence = std::string(fault.what()).substr(fault.where().size() + 2);
+        answer["fault"] = fault.code();
+        answer["where"] = fault.where();
+        answer["what"] = sentence;
+    } catch (const std::exception& e) {
+        answer["refused"] = std::string("makes the GPU fail: ") + e.what();
+    }
+    parent.say(answer.dump());
+    ::_exit(0);  // a driver that the shape has upset may not come down in order
+}
+
+}  // namespace foveray::user_shapes

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/accel_scene.h"
+#include "render/primary.h"
+#include "render/ray_counters.h"
+#include "render/scene/scene_builder.h"
+#include "shaders/shared/surface.h"
+
+namespace foveray::user_shapes {
+
+/// A scene of one shape, looked at from all around and from its middle, as a frame would trace it.
+class ProbeFrame {
+  public:
+    /// Compiles. `shape` is the user's file 0.
+    ProbeFrame(const gpu::Device& device, gpu::TextureTable& textures, const scene::UserShape& user,
+               const scene::Shape& shape);
+
+    /// Lets the driver compile: traces rays that meet nothing. Waits.
+    void warm_up();
+    /// What is wrong with what the rays find, if anything. Waits.
+    std::optional<std::string> run();
+
+  private:
+    std::vector<shared::Surface> look(std::span<const View> views);
+
+    scene::Scene scene_;
+    scene::SceneAnimator animator_;
+    gpu::FrameRing ring_;
+    render::RayPipeline pipeline_;
+    render::GpuScene gpu_scene_;
+    render::AccelScene accel_;
+    render::PrimaryStage primary_;
+    render::RayCounters counters_;
+    gpu::Buffer grid_, readback_;
+};
+
+}  // namespace foveray::user_shapes

@@ -1,0 +1,285 @@
+// Voxel objects on the GPU: rays against a list of cubes, the level that a cone ends at, and what far objects
+// look like.
+#include <cmath>
+#include <random>
+
+#include "render/scene/scene_builder.h"
+#include "render/scene/voxelize.h"
+#include "shaders/shared/voxels.h"
+#include "tests/fakes/gpu_fixture.h"
+#include "tests/render/geometry/scene_rig.h"
+#include "tests/render/shapes/ray_rig.h"
+
+namespace foveray::render {
+namespace {
+
+using scene::Voxels;
+using scene::VoxelSample;
+
+class Random {
+  public:
+    explicit Random(std::uint32_t seed) : engine_(seed) {}
+    float in(float low, float high) {
+        return low + (high - low) * (static_cast<float>(engine_() >> 8) / 16777216.0f);
+    }
+    vec3 vector(float low, float high) { return {in(low, high), in(low, high), in(low, high)}; }
+    quat rotation() { return glm::normalize(quat(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1))); }
+    std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
+
+  private:
+    std::mt19937 engine_;
+};
+
+Voxels tree_of(std::vector<VoxelSample> samples, float size, vec3 origin, bool show_faces) {
+    Voxels voxels;
+    voxels.voxel_size = size;
+    voxels.origin = origin;
+    voxels.show_faces = show_faces;
+    EXPECT_TRUE(build_tree(std::move(samples), voxels));
+    return voxels;
+}
+
+scene::Scene scene_with(std::shared_ptr<const Voxels> voxels, const mat4& world_from_object,
+                        bool unlit = false) {
+    scene::SceneBuilder builder;
+    scene::Shape shape;
+    shape.kind = scene::ShapeKind::Voxels;
+    shape.voxels = std::move(voxels);
+    scene::Material material;
+    material.double_sided = true;
+    material.unlit = unlit;
+    shape.material = builder.add(material);
+    scene::Node node;
+    node.shape = builder.add(std::move(shape));
+    node.matrix = world_from_object;
+    builder.add(node);
+    return std::move(builder).build();
+}
+
+struct Hit {
+    float t = 1e30f;
+    vec3 face{0.0f};
+    std::size_t voxel = 0;
+};
+
+/// The nearest cube that does not hold the origin; object space.
+Hit nearest_cube(const Voxels& v, const std::vector<VoxelSample>& samples, vec3 origin, vec3 direction) {
+    Hit hit;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const vec3 low = v.origin + v.voxel_size * vec3(scene::place_of(samples[i].morton));
+        const vec3 a = (low - origin) / direction, b = (low + v.voxel_size - origin) / direction;
+        const vec3 in = glm::min(a, b), out = glm::max(a, b);
+        const float t = std::max({in.x, in.y, in.z}), end = std::min({out.x, out.y, out.z});
+        if (t >= end || t <= 0.0f || t >= hit.t) continue;
+        hit = {t, vec3(0.0f), i};
+        const int axis = in.x == t ? 0 : in.y == t ? 1 : 2;
+        hit.face[axis] = direction[axis] > 0.0f ? -1.0f : 1.0f;
+    }
+    return hit;
+}
+
+class VoxelTest : public fakes::GpuTest {};
+
+TEST_F(VoxelTest, agreesWithAListOfCubes) {
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        Random random(seed);
+        const bool faces = seed != 2u;
+        const std::uint32_t side = seed == 3u ? 7 : 20;
+        std::vector<VoxelSample> samples;
+        for (int i = 0; i < 150; ++i) {
+            const glm::uvec3 place(random.below(side), random.below(side), random.below(side));
+            samples.push_back({scene::morton_of(place), 1.0f, random.vector(0.1f, 1.0f),
+                               glm::normalize(random.vector(-1.0f, 1.0f))});
+        }
+        merge_samples(samples);
+        const auto voxels = std::make_shared<Voxels>(tree_of(samples, 0.07f, {-0.7f, -0.6f, -0.8f}, faces));
+        const mat4 world = glm::translate(mat4(1.0f), random.vector(-2.0f, 2.0f)) *
+                           glm::mat4_cast(random.rotation()) *
+                           glm::scale(mat4(1.0f), random.vector(0.5f, 2.0f));
+        const mat4 object = glm::inverse(world);
+        const scene::Scene scene = scene_with(voxels, world);
+        RayRig rig(device(), scene);
+        std::vector<shared::TestRay> rays;
+        for (int i = 0; i < 5000; ++i) {
+            shared::TestRay ray{};
+            const vec3 target = vec3(world * vec4(random.vector(-0.8f, 0.8f), 1.0f));
+            const float far = i % 3 == 0 ? 0.8f : 4.0f;
+            ray.origin = vec3(world * vec4(random.vector(-far, far), 1.0f));
+            ray.direction = glm::normalize(target - ray.origin);
+            ray.t_max = ray.shadow_t_max = 100.0f;
+            rays.push_back(ray);
+        }
+        const auto answers = rig.answers(0, rays);
+        int hits = 0, differing = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const vec3 origin = vec3(object * vec4(rays[i].origin, 1.0f));
+            const vec3 direction = mat3(object) * rays[i].direction;
+            const Hit expected = nearest_cube(*voxels, samples, origin, direction);
+            const shared::Surface& s = answers[i].surface;
+            const bool hit = s.kind == shared::SURFACE_VIRTUAL;
+            hits += hit;
+            EXPECT_EQ(hit, answers[i].transmittance == vec3(0.0f));
+            if (hit != (expected.t < 1e29f) || (hit && std::abs(s.distance - expected.t) > 1e-3f)) {
+                ++differing;  // along an edge
+                continue;
+            }
+            if (!hit) continue;
+            EXPECT_EQ(s.alpha, 1.0f);
+            EXPECT_LT(glm::length(s.base_color - samples[expected.voxel].color), 0.03f);
+            if (!faces) continue;
+            const vec3 normal = glm::normalize(glm::transpose(mat3(object)) * expected.face);
+            EXPECT_GT(glm::dot(s.normal, normal), 0.98f) << i;
+        }
+        EXPECT_GT(hits, 400);
+        EXPECT_LE(differing, 10);
+    }
+}
+
+TEST_F(VoxelTest, smoothVoxelsAreShadedByTheNormalThatTheyHold) {
+    const vec3 normal = glm::normalize(vec3(0.2f, 0.4f, 1.0f));
+    const std::vector<VoxelSample> samples = {{0, 1.0f, vec3(1.0f), normal}};
+    const auto voxels = std::make_shared<Voxels>(tree_of(samples, 1.0f, vec3(-0.5f), false));
+    const quat turn = glm::normalize(quat(0.9f, 0.1f, 0.3f, 0.0f));
+    const scene::Scene scene = scene_with(voxels, glm::mat4_cast(turn));
+    RayRig rig(device(), scene);
+    shared::TestRay ray{};
+    ray.origin = turn * vec3(0, 0, 5);
+    ray.direction = turn * vec3(0, 0, -1);
+    ray.t_max = ray.shadow_t_max = 100.0f;
+    shared::TestRay behind = ray;
+    behind.origin = -ray.origin, behind.direction = -ray.direction;
+    const auto answers = rig.answers(0, {ray, behind});
+    EXPECT_NEAR(answers[0].surface.distance, 4.5f, 1e-4f);
+    EXPECT_GT(glm::dot(answers[0].surface.normal, turn * normal), 0.9999f);
+    EXPECT_EQ(answers[0].surface.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
+    EXPECT_GT(glm::dot(answers[1].surface.normal, turn * -normal), 0.9999f);
+    EXPECT_NE(answers[1].surface.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
+}
+
+/// A slab one voxel thick that fills a square of the xy plane.
+std::vector<VoxelSample> slab(std::uint32_t side) {
+    std::vector<VoxelSample> samples;
+    for (std::uint32_t x = 0; x < side; ++x) {
+        for (std::uint32_t y = 0; y < side; ++y) {
+            samples.push_back({scene::morton_of({x, y, side / 2}), 1.0f, vec3(1.0f), vec3(0, 0, 1)});
+        }
+    }
+    return samples;
+}
+
+TEST_F(VoxelTest, theLevelFollowsTheCone) {
+    constexpr std::uint32_t side = 1024;
+    Voxels tree = tree_of(slab(side), 1.0f / side, vec3(-0.5f), false);
+    // Each level gets its own colour.
+    for (std::uint32_t level = 0; level <= tree.depth; ++level) {
+        const std::uint32_t d = tree.depth - level;
+        for (std::uint32_t i = tree.level_begin[d]; i < tree.level_begin[d + 1]; ++i) {
+            tree.nodes[i].x = (tree.nodes[i].x & 0xFF000000u) | 25 * level;
+        }
+    }
+    const float scale = 3.0f;  // voxels are scale / side metres wide
+    const scene::Scene scene =
+        scene_with(std::make_shared<Voxels>(tree), glm::scale(mat4(1.0f), vec3(scale)));
+    RayRig rig(device(), scene);
+    std::vector<shared::TestRay> rays;
+    for (float width = 0.25f; width < 512.0f; width *= 1.19f) {
+        for (const bool spreads : {false, true}) {
+            shared::TestRay ray{};
+            ray.origin = {0.1f, 0.2f, 10.0f};
+            ray.direction = {0, 0, -1};
+            ray.t_max = ray.shadow_t_max = 100.0f;
+            const float metres = width * scale / side;
+            ray.cone = spreads ? shared::RayCone{0.0f, metres / 10.0f} : shared::RayCone{metres, 0.0f};
+            rays.push_back(ray);
+        }
+    }
+    const auto answers = rig.answers(0, rays);
+    const float deepest = static_cast<float>(tree.depth - shared::VOXEL_LEAST_DEPTH);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const float width =
+            ray_cone_width(rays[i].cone, answers[i].surface.distance) * static_cast<float>(side) / scale;
+        const float level = 255.0f * std::sqrt(answers[i].surface.base_color.r) / 25.0f;
+        const float exact = std::log2(width * shared::VOXEL_CONE_PART);
+        if (std::abs(exact - std::round(exact)) < 0.03f) continue;
+        EXPECT_NEAR(level, glm::clamp(std::floor(exact), 0.0f, deepest), 0.05f) << "width " << width;
+        EXPECT_EQ(answers[i].surface.alpha, 1.0f);
+        EXPECT_EQ(answers[i].transmittance, vec3(0.0f));
+    }
+}
+
+/// Mean radiance and coverage of an unlit object seen in `size` x `size` pixels, each the mean of `fine`
+/// squared.
+vec4 mean_seen(const gpu::Device& device, const std::shared_ptr<const Voxels>& voxels, const quat& turn,
+               std::uint32_t size, std::uint32_t shifts) {
+    const scene::Aabb bounds = voxels->bounds();
+    const float width = glm::length(bounds.extent());
+    const mat4 world = glm::translate(mat4(1.0f), vec3(0, 0, -10)) * glm::mat4_cast(turn) *
+                       glm::scale(mat4(1.0f), vec3(2.0f / width)) *
+                       glm::translate(mat4(1.0f), -bounds.center());
+    const scene::Scene scene = scene_with(voxels, world, true);
+    SceneRig rig(device, scene);
+    const float half_angle = std::atan(0.11f);
+    View view = view_forward(degrees(half_angle), uvec2(size));
+    // Pixels at all places relative to the object, as if it moved by less than a pixel.
+    vec4 mean(0.0f);
+    for (std::uint32_t i = 0; i < shifts * shifts; ++i) {
+        const vec2 shift = (vec2(i % shifts, i / shifts) + 0.5f) / static_cast<float>(shifts) - 0.5f;
+        const vec2 angle = shift * 2.0f * half_angle / static_cast<float>(size);
+        view.stage_from_eye.orientation =
+            glm::angleAxis(angle.x, vec3(0, 1, 0)) * glm::angleAxis(angle.y, vec3(1, 0, 0));
+        for (const vec4& pixel : rig.picture(0, view, Settings{})) mean += pixel;
+    }
+    mean /= static_cast<float>(shifts * shifts * size * size);
+    return mean;
+}
+
+struct Looks {
+    const char* name;
+    std::shared_ptr<const Voxels> voxels;
+};
+
+scene::Scene mesh_scene(scene::Mesh mesh, vec3 scale, vec3 color) {
+    scene::SceneBuilder builder;
+    scene::Material material;
+    material.base_color = vec4(color, 1.0f);
+    material.double_sided = true;
+    mesh.primitives[0].material = builder.add(material);
+    // Colours that change over the surface.
+    for (const vec3& p : mesh.primitives[0].positions) {
+        mesh.primitives[0].colors.push_back(
+            vec4(glm::mix(vec3(1, 0.2f, 0.1f), vec3(0.1f, 0.5f, 1), p.x + 0.5f), 1.0f));
+    }
+    scene::Node node;
+    node.mesh = builder.add(std::move(mesh));
+    node.local.scale = scale;
+    builder.add(node);
+    return std::move(builder).build();
+}
+
+TEST_F(VoxelTest, aFarObjectLooksOnAverageAsItDoesInFull) {
+    const auto make = [](const scene::Scene& scene, std::uint32_t n) {
+        return std::make_shared<const Voxels>(*voxelize(scene, n));
+    };
+    std::vector<Looks> objects = {
+        {"ball", make(mesh_scene(scene::make_sphere(0.5f, 64), vec3(1.0f), vec3(0.9f)), 256)},
+        {"box", make(mesh_scene(scene::make_box(vec3(0.5f)), {1.0f, 0.6f, 0.3f}, vec3(0.7f)), 256)},
+        {"sheet", make(mesh_scene(scene::make_rectangle(vec2(0.5f)), vec3(1.0f), vec3(0.8f)), 256)},
+        {"rod", make(mesh_scene(scene::make_box(vec3(0.5f)), {1.0f, 0.04f, 0.04f}, vec3(0.8f)), 256)},
+    };
+    Random random(7);
+    for (const Looks& object : objects) {
+        for (int i = 0; i < 4; ++i) {
+            const quat turn = i == 0 ? glm::angleAxis(0.1f, vec3(0.8f, 0.6f, 0)) : random.rotation();
+            const vec4 full = mean_seen(device(), object.voxels, turn, 400, 1);
+            for (const std::uint32_t size : {20u, 40u, 80u}) {
+                const vec4 far = mean_seen(device(), object.voxels, turn, size, 400 / size);
+                const float difference = glm::length(far - full) / glm::length(full);
+                EXPECT_LT(difference, 0.02f) << object.name << " turned " << i << " in " << size
+                                             << " pixels covers " << far.a / full.a;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace foveray::render

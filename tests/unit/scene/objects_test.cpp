@@ -1,0 +1,131 @@
+#include "render/scene/csg.h"
+#include "render/scene/load_scene.h"
+#include "render/scene/scene_builder.h"
+#include "tests/fakes/expect_fault.h"
+#include "tests/unit/scene/scene_fixture.h"
+
+namespace foveray::scene {
+namespace {
+
+Json leaves(std::size_t count) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < count; ++i) list.push_back({{"sphere", Json::object()}});
+    return list;
+}
+
+class SceneObjects : public GltfTest {
+  protected:
+    Scene load(const Json& object) {
+        const Json json = {{"format", "foveray-scene"}, {"version", 1}, {"objects", {object}}};
+        return load_scene(folder_.write("scene.json", json.dump()));
+    }
+    Scene load_solid(const Json& solid) { return load({{"shape", "csg"}, {"solid", solid}}); }
+    void expect_bad(const Json& object, const std::string& part) {
+        fakes::expect_fault([&] { load(object); }, ExitCode::BadInput, part);
+        fakes::expect_fault([&] { load(object); }, ExitCode::BadInput, "scene.json");
+    }
+    void expect_bad_solid(const Json& solid, const std::string& part) {
+        expect_bad({{"shape", "csg"}, {"solid", solid}}, part);
+    }
+};
+
+TEST_F(SceneObjects, shapesHaveDefaultsAndBounds) {
+    const Scene sphere = load({{"shape", "sphere"}});
+    EXPECT_EQ(sphere.shapes.at(0).values, std::vector<float>{0.5f});
+    expect_near(sphere.bounds.max, vec3(0.5f));
+    const Scene turned =
+        load({{"shape", "oriented_box"},
+              {"parameters", {{"half_size", {1, 0.25, 0.25}}, {"orientation", {0, 0, 1, 1}}}}});
+    expect_near(turned.bounds.max, {0.25f, 1.0f, 0.25f});
+    const Scene plane = load({{"shape", "plane"}, {"parameters", {{"half_size", {2, 3}}}}});
+    EXPECT_FLOAT_EQ(plane.bounds.max.z, 3.0f);
+    EXPECT_LT(plane.bounds.max.y, 0.01f);
+    EXPECT_GT(plane.bounds.max.y, 0.0f);
+}
+
+TEST_F(SceneObjects, badValuesAreNamed) {
+    expect_bad({{"shape", "spere"}}, "did you mean \"sphere\"");
+    expect_bad({{"shape", "sphere"}, {"parameters", {{"raduis", 1}}}}, "did you mean \"radius\"");
+    expect_bad({{"shape", "sphere"}, {"parameters", {{"radius", 0}}}}, "/objects/0/parameters/radius");
+    expect_bad({{"shape", "sphere"}, {"parameters", {{"radius", -1}}}}, "out of range");
+    expect_bad({{"shape", "sphere"}, {"parameters", {{"radius", 1e30}}}}, "out of range");
+    expect_bad({{"shape", "box"}, {"parameters", {{"half_size", {1, 0, 1}}}}}, "out of range");
+    expect_bad({{"shape", "box"}, {"parameters", {{"half_size", {1, 1}}}}}, "has 2 numbers");
+    expect_bad({{"shape", "plane"}, {"parameters", {{"half_size", {1e9, 1}}}}}, "out of range");
+    expect_bad({{"shape", "plane"}, {"parameters", {{"checker_color", {2, 0, 0}}}}}, "out of range");
+    expect_bad({{"shape", "oriented_box"}, {"parameters", {{"orientation", {0, 0, 0, 0}}}}},
+               "is no rotation");
+    expect_bad({{"shape", "sphere"}, {"transform", {{"scale", {1, 0, 1}}}}}, "/objects/0/transform/scale");
+    expect_bad({{"shape", "sphere"}, {"solid", {{"sphere", Json::object()}}}}, "only a csg shape has one");
+}
+
+TEST_F(SceneObjects, orientationsAreAnimatedThroughOppositeKeys) {
+    const Scene scene = load(
+        {{"shape", "oriented_box"},
+         {"animation",
+          {{{"property", "orientation"}, {"times", {0, 2}}, {"values", {{0, 0, 0, 1}, {0, 0, 0, -1}}}}}}});
+    SceneAnimator animator(scene);
+    const Aabb bounds = animator.advance(from_seconds(1.0)).shapes[0].bounds;
+    expect_near(bounds.max, vec3(0.5f));
+}
+
+TEST_F(SceneObjects, solidsBecomeLeavesAndProgram) {
+    const Scene scene = load_solid({{"difference",
+                                     {{{"sphere", {{"radius", 0.4}}}},
+                                      {{"union",
+                                        {{{"box", {{"half_size", {0.1, 0.2, 0.3}}}}},
+                                         {{"cylinder", {{"radius", 0.1}, {"half_height", 2}}}}}},
+                                       {"transform", {{"translation", {1, 0, 0}}}},
+                                       {"material", {{"base_color", {1, 0, 0}}}}}}}});
+    const CsgSolid& solid = scene.shapes.at(0).solid;
+    ASSERT_EQ(solid.leaves.size(), 3u);
+    ASSERT_EQ(solid.program.size(), 5u);
+    EXPECT_EQ(solid.program[3].operation, CsgOperation::Union);
+    EXPECT_EQ(solid.program[4].operation, CsgOperation::Difference);
+    EXPECT_FALSE(solid.leaves[0].material);
+    ASSERT_TRUE(solid.leaves[1].material && solid.leaves[2].material);
+    expect_near(vec3(scene.materials[*solid.leaves[2].material].base_color), {1, 0, 0});
+    expect_near(transform(solid.leaves[2].object_from_leaf, {1, 1, 0}), {1.1f, 2.0f, 0.0f});
+    expect_near(scene.bounds.max, vec3(0.4f));  // what is taken away adds nothing
+}
+
+TEST_F(SceneObjects, boundsOfSolidsFollowTheTree) {
+    const Json left = {{"box", Json::object()}};
+    const Json right = {{"sphere", Json::object()}, {"transform", {{"translation", {0.75, 0, 0}}}}};
+    expect_near(load_solid({{"union", {left, right}}}).bounds.max, {1.25f, 0.5f, 0.5f});
+    expect_near(load_solid({{"intersection", {left, right}}}).bounds.min, {0.25f, -0.5f, -0.5f});
+    expect_near(load_solid({{"intersection", {left, right}}}).bounds.max, {0.5f, 0.5f, 0.5f});
+    const Json turned = {{"cylinder", {{"radius", 0.5}, {"half_height", 1}}},
+                         {"transform", {{"euler_degrees", {0, 0, 90}}}}};
+    expect_near(load_solid(turned).bounds.max, {1.0f, 0.5f, 0.5f});
+}
+
+TEST_F(SceneObjects, badSolidsAreNamed) {
+    const Json sphere = {{"sphere", Json::object()}};
+    expect_bad({{"shape", "csg"}}, "has no \"solid\"");
+    expect_bad_solid(Json::object(), "is no solid");
+    expect_bad_solid({{"torus", Json::object()}}, "torus");
+    expect_bad_solid({{"union", {sphere}}}, "/objects/0/solid/union");
+    expect_bad_solid({{"sphere", Json::object()}, {"box", Json::object()}}, "at once");
+    EXPECT_NO_THROW(load_solid({{"union", leaves(16)}}));
+    expect_bad_solid({{"union", leaves(17)}}, "more than 16 leaves");
+    expect_bad_solid({{"sphere", {{"radius", 0}}}}, "/objects/0/solid/sphere/radius");
+    expect_bad_solid({{"sphere", {{"radius", 1e9}}}}, "half-size is 1000000000");
+    expect_bad_solid({{"box", Json::object()}, {"transform", {{"scale", {1, 1e-9, 1}}}}}, "half-size");
+    expect_bad_solid({{"sphere", Json::object()}, {"transform", {{"translation", {1e9, 0, 0}}}}}, "too far");
+    const Json far = {{"sphere", Json::object()}, {"transform", {{"translation", {5, 0, 0}}}}};
+    expect_bad_solid({{"intersection", {sphere, far}}}, "nothing is left");
+    // Uneven scales round a turn flatten what is inside.
+    const Json squeezed = {{"union",
+                            {{{"box", {{"half_size", {1, 1, 1}}}},
+                              {"transform", {{"euler_degrees", {0, 0, 45}}, {"scale", {1, 1, 1}}}}},
+                             sphere}},
+                           {"transform", {{"scale", {1000, 1e-3, 1}}}}};
+    expect_bad_solid(squeezed, "cannot be undone");
+    Json deep = sphere;
+    for (int i = 0; i < 5000; ++i) deep = {{"union", {deep, sphere}}};
+    expect_bad_solid(deep, "nested too deeply");
+}
+
+}  // namespace
+}  // namespace foveray::scene
