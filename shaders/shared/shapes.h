@@ -49,6 +49,7 @@ FOVERAY_CONST uint CSG_SPHERE = 0u;
 FOVERAY_CONST uint CSG_BOX = 1u;
 FOVERAY_CONST uint CSG_CYLINDER = 2u;
 FOVERAY_CONST uint CSG_MOST_LEAVES = 16u;
+FOVERAY_CONST uint CSG_MOST_STEPS = 2u * CSG_MOST_LEAVES - 1u;  // every operation joins two
 // Steps of a program in postfix order: below these, the leaf to put on the stack.
 FOVERAY_CONST uint CSG_UNION = 16u;
 FOVERAY_CONST uint CSG_INTERSECTION = 17u;
