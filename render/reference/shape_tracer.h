@@ -20,7 +20,7 @@ struct Crossing {
 
 /// Where the ray meets the shape's surface between its ends, in order, in closed form. `values` are the
 /// shape's parameters. CSG: each operation joins the two sets of intervals that its operands cut out of the
-/// line. Kinds that have no closed form are marched (march.h): their crossings are found one after the other.
+/// line. Kinds that have no closed form give none: march.h has their own queries.
 std::vector<Crossing> crossings(const scene::Shape& shape, std::span<const float> values, const Ray& ray);
 
 }  // namespace foveray::reference
