@@ -1,26 +1,19 @@
 #pragma once
 
-#include <random>
-
 #include "render/scene/scene_builder.h"
+#include "tests/fakes/random.h"
 
 namespace foveray::render {
 
 /// Boxes, spheres and rectangles under rotated, unevenly scaled, mirrored and sheared transforms, 2 to 8 m in
 /// front of the origin, with one-sided and two-sided materials of different colours.
 inline scene::SceneBuilder random_scene(std::uint32_t seed) {
-    std::mt19937 random(seed);
-    const auto uniform = [&](float low, float high) {
-        return low + (high - low) * (static_cast<float>(random() >> 8) / 16777216.0f);
-    };
-    const auto rotation = [&] {
-        return glm::normalize(quat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
-    };
+    fakes::Random random(seed);
     scene::SceneBuilder builder;
     std::vector<scene::MaterialId> materials;
     for (int i = 0; i < 6; ++i) {
         scene::Material material;
-        material.base_color = {uniform(0, 1), uniform(0, 1), uniform(0, 1), 1};
+        material.base_color = vec4(random.vector(0, 1), 1);
         material.double_sided = i == 0 || i == 3 || i == 4;
         materials.push_back(builder.add(material));
     }
@@ -39,13 +32,13 @@ inline scene::SceneBuilder random_scene(std::uint32_t seed) {
     }
     for (int i = 0; i < 28; ++i) {
         scene::Node parent;
-        parent.local.translation = {uniform(-3, 3), uniform(-3, 3), uniform(-8, -2)};
-        parent.local.rotation = rotation();
-        parent.local.scale = {uniform(0.4f, 1.6f), uniform(0.4f, 1.6f), uniform(0.4f, 1.6f)};
+        parent.local.translation = {random.in(-3, 3), random.in(-3, 3), random.in(-8, -2)};
+        parent.local.rotation = random.rotation();
+        parent.local.scale = random.vector(0.4f, 1.6f);
         scene::Node child;
         child.parent = builder.add(parent);
-        child.local.rotation = rotation();  // under an uneven scale: shear
-        child.local.scale = {i % 3 == 0 ? -1.0f : 1.0f, uniform(0.5f, 1.5f), i % 5 == 0 ? -1.0f : 1.0f};
+        child.local.rotation = random.rotation();  // under an uneven scale: shear
+        child.local.scale = {i % 3 == 0 ? -1.0f : 1.0f, random.in(0.5f, 1.5f), i % 5 == 0 ? -1.0f : 1.0f};
         child.mesh = meshes[i % 7];
         builder.add(child);
     }

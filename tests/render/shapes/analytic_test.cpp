@@ -1,10 +1,10 @@
 // Sphere, boxes, plane and csg: rays against closed forms.
 #include <cmath>
-#include <random>
 
 #include "render/reference/tracer.h"
 #include "render/scene/scene_builder.h"
 #include "tests/fakes/gpu_fixture.h"
+#include "tests/fakes/random.h"
 #include "tests/render/shapes/ray_rig.h"
 
 namespace foveray::render {
@@ -20,22 +20,8 @@ scene::Material two_sided() {
     return material;
 }
 
-class Random {
-  public:
-    explicit Random(std::uint32_t seed) : engine_(seed) {}
-    float in(float low, float high) {
-        return low + (high - low) * (static_cast<float>(engine_() >> 8) / 16777216.0f);
-    }
-    vec3 vector(float low, float high) { return {in(low, high), in(low, high), in(low, high)}; }
-    quat rotation() { return glm::normalize(quat(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1))); }
-    std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
-
-  private:
-    std::mt19937 engine_;
-};
-
 /// A random tree over `leaf_count` leaves, in postfix order.
-scene::CsgSolid random_solid(Random& random, std::uint32_t leaf_count,
+scene::CsgSolid random_solid(fakes::Random& random, std::uint32_t leaf_count,
                              const std::vector<scene::MaterialId>& materials) {
     scene::CsgSolid solid;
     std::uint32_t on_stack = 0;
@@ -64,7 +50,7 @@ scene::CsgSolid random_solid(Random& random, std::uint32_t leaf_count,
     return solid;
 }
 
-std::vector<float> random_values(Random& random, ShapeKind kind) {
+std::vector<float> random_values(fakes::Random& random, ShapeKind kind) {
     switch (kind) {
         case ShapeKind::Sphere:
             return {random.in(0.2f, 0.7f)};
@@ -91,7 +77,7 @@ constexpr std::array analytic = {ShapeKind::Sphere, ShapeKind::Box, ShapeKind::O
 /// with single-sided, double-sided and, where asked for, see-through materials; every fourth stands there
 /// three times.
 scene::Scene random_shapes(std::uint32_t seed, std::span<const ShapeKind> kinds, bool see_through) {
-    Random random(seed);
+    fakes::Random random(seed);
     scene::SceneBuilder builder;
     std::vector<scene::MaterialId> materials;
     for (int i = 0; i < 6; ++i) {
@@ -132,7 +118,7 @@ scene::Scene random_shapes(std::uint32_t seed, std::span<const ShapeKind> kinds,
 
 /// From within the cube, where many start inside shapes, and from round it.
 std::vector<shared::TestRay> random_rays(std::uint32_t seed, std::size_t count) {
-    Random random(seed);
+    fakes::Random random(seed);
     std::vector<shared::TestRay> rays;
     for (std::size_t i = 0; i < count; ++i) {
         shared::TestRay ray{};
@@ -300,7 +286,7 @@ TEST_F(AnalyticShapeTest, facesThatLieInEachOtherLeaveNoSkin) {
     builder.add(node);
     const scene::Scene scene = std::move(builder).build();
     RayRig rig(device(), scene);
-    Random random(9);
+    fakes::Random random(9);
     std::vector<shared::TestRay> rays;
     std::vector<float> expected;
     for (int i = 0; i < 2000; ++i) {
@@ -355,7 +341,7 @@ TEST_F(AnalyticShapeTest, checkerFadesToItsMeanWithTheFootprint) {
     builder.add(node);
     const scene::Scene scene = std::move(builder).build();
     RayRig rig(device(), scene);
-    Random random(7);
+    fakes::Random random(7);
     std::vector<shared::TestRay> fine, coarse;
     for (int i = 0; i < 500; ++i) {
         shared::TestRay ray{};

@@ -1,10 +1,10 @@
 // Julia sets, Mandelbulbs and blends: rays against a slow march through the sets themselves.
 #include <cmath>
-#include <random>
 
 #include "render/reference/march.h"
 #include "render/scene/scene_builder.h"
 #include "tests/fakes/gpu_fixture.h"
+#include "tests/fakes/random.h"
 #include "tests/render/shapes/ray_rig.h"
 
 namespace foveray::render {
@@ -14,20 +14,6 @@ using scene::ShapeKind;
 
 constexpr float apart = 30.0f;      // metres between the shapes, along x
 constexpr float threshold = 0.25f;  // of a cone's width, at which a surface counts as hit
-
-class Random {
-  public:
-    explicit Random(std::uint32_t seed) : engine_(seed) {}
-    float in(float low, float high) {
-        return low + (high - low) * (static_cast<float>(engine_() >> 8) / 16777216.0f);
-    }
-    vec3 vector(float low, float high) { return {in(low, high), in(low, high), in(low, high)}; }
-    quat rotation() { return glm::normalize(quat(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1))); }
-    vec3 direction() { return rotation() * vec3(0, 0, 1); }
-
-  private:
-    std::mt19937 engine_;
-};
 
 std::vector<scene::BlendPart> parts() {
     std::vector<scene::BlendPart> result(5);
@@ -77,7 +63,7 @@ reference::IsInside inside_of(const Example& example) {
 
 /// Each example once, turned and unevenly scaled, in a row along x.
 scene::Scene row_of_examples() {
-    Random random(11);
+    fakes::Random random(11);
     scene::SceneBuilder builder;
     scene::Material material;
     material.base_color = {1, 1, 1, 1};
@@ -101,7 +87,7 @@ scene::Scene row_of_examples() {
 
 /// Rays towards the example's middle from about 5 m away, or from within its bounds.
 std::vector<shared::TestRay> rays_to(std::size_t example, std::size_t count, float spread, bool within) {
-    Random random(static_cast<std::uint32_t>(100 + example));
+    fakes::Random random(static_cast<std::uint32_t>(100 + example));
     const vec3 center(apart * static_cast<float>(example), 0, 0);
     std::vector<shared::TestRay> rays;
     for (std::size_t i = 0; i < count; ++i) {
@@ -232,7 +218,7 @@ TEST_F(DistanceShapes, RaysFromTheSurfaceHitOnlyWhatTheyGoInto) {
         const std::vector<shared::TestRay> rays = rays_to(e, 300, 4e-3f, false);
         std::vector<shared::TestRay> away, into;
         std::vector<float> thresholds;
-        Random random(5);
+        fakes::Random random(5);
         for (const shared::RayAnswer& answer : rig_->answers(0, rays)) {
             const shared::Surface& s = answer.surface;
             if (s.kind != shared::SURFACE_VIRTUAL) continue;

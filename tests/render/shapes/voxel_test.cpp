@@ -1,12 +1,12 @@
 // Voxel objects on the GPU: rays against a list of cubes, the level that a cone ends at, and what far objects
 // look like.
 #include <cmath>
-#include <random>
 
 #include "render/scene/scene_builder.h"
 #include "render/scene/voxelize.h"
 #include "shaders/shared/voxels.h"
 #include "tests/fakes/gpu_fixture.h"
+#include "tests/fakes/random.h"
 #include "tests/render/geometry/scene_rig.h"
 #include "tests/render/shapes/ray_rig.h"
 
@@ -15,20 +15,6 @@ namespace {
 
 using scene::Voxels;
 using scene::VoxelSample;
-
-class Random {
-  public:
-    explicit Random(std::uint32_t seed) : engine_(seed) {}
-    float in(float low, float high) {
-        return low + (high - low) * (static_cast<float>(engine_() >> 8) / 16777216.0f);
-    }
-    vec3 vector(float low, float high) { return {in(low, high), in(low, high), in(low, high)}; }
-    quat rotation() { return glm::normalize(quat(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1))); }
-    std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
-
-  private:
-    std::mt19937 engine_;
-};
 
 Voxels tree_of(std::vector<VoxelSample> samples, float size, vec3 origin, bool show_faces) {
     Voxels voxels;
@@ -82,7 +68,7 @@ class VoxelTest : public fakes::GpuTest {};
 
 TEST_F(VoxelTest, agreesWithAListOfCubes) {
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        Random random(seed);
+        fakes::Random random(seed);
         const bool faces = seed != 2u;
         const std::uint32_t side = seed == 3u ? 7 : 20;
         std::vector<VoxelSample> samples;
@@ -266,7 +252,7 @@ TEST_F(VoxelTest, aFarObjectLooksOnAverageAsItDoesInFull) {
         {"sheet", make(mesh_scene(scene::make_rectangle(vec2(0.5f)), vec3(1.0f), vec3(0.8f)), 256)},
         {"rod", make(mesh_scene(scene::make_box(vec3(0.5f)), {1.0f, 0.04f, 0.04f}, vec3(0.8f)), 256)},
     };
-    Random random(7);
+    fakes::Random random(7);
     for (const Looks& object : objects) {
         for (int i = 0; i < 4; ++i) {
             const quat turn = i == 0 ? glm::angleAxis(0.1f, vec3(0.8f, 0.6f, 0)) : random.rotation();

@@ -10,6 +10,7 @@
 #include "tests/fakes/expect_fault.h"
 #include "tests/fakes/temporary_folder.h"
 #include "tests/unit/scene/vox_builder.h"
+#include "tests/unit/scene/voxel_walk.h"
 
 namespace foveray::scene {
 namespace {
@@ -31,20 +32,11 @@ class VoxFileTest : public testing::Test {
 /// Lowest corners of all voxels, in object space.
 std::set<std::array<int, 3>> places_of(const Voxels& v) {
     std::set<std::array<int, 3>> places;
-    const auto visit = [&](const auto& self, std::uint32_t node, std::uint32_t level,
-                           glm::uvec3 place) -> void {
-        if (level == 0) {
-            const vec3 p = glm::round(v.origin / v.voxel_size + vec3(place));
-            places.insert({static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)});
-            return;
-        }
-        std::uint32_t child = v.links[node] & (shared::VOXEL_MAX_NODES - 1);
-        for (std::uint32_t o = 0; o < 8; ++o) {
-            if ((v.links[node] >> shared::VOXEL_LINK_INDEX_BITS >> o & 1) == 0) continue;
-            self(self, child++, level - 1, place + (glm::uvec3(o & 1, o >> 1 & 1, o >> 2) << (level - 1)));
-        }
-    };
-    visit(visit, 0, v.depth, glm::uvec3(0));
+    walk(v, [&](std::uint32_t, std::uint32_t level, glm::uvec3 place) {
+        if (level > 0) return;
+        const vec3 p = glm::round(v.origin / v.voxel_size + vec3(place));
+        places.insert({static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)});
+    });
     return places;
 }
 

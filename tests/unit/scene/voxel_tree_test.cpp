@@ -1,13 +1,14 @@
 // The octree of voxels against sums over the voxels themselves.
 #include <algorithm>
 #include <map>
-#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "render/scene/voxels.h"
 #include "shaders/shared/voxels.h"
+#include "tests/fakes/random.h"
+#include "tests/unit/scene/voxel_walk.h"
 
 namespace foveray::scene {
 namespace {
@@ -20,14 +21,13 @@ struct PlaceLess {
 using Cells = std::map<glm::uvec3, VoxelSample, PlaceLess>;
 
 Cells random_cells(std::uint32_t seed, int count) {
-    std::mt19937 random(seed);
-    const auto unit = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+    fakes::Random random(seed);
     Cells cells;
     cells[{0, 0, side - 1}] = {morton_of({0, 0, side - 1}), 1.0f, vec3(0.5f), vec3(0, 0, 1)};
     for (int i = 0; i < count; ++i) {
-        const glm::uvec3 place(random() % side, random() % side, random() % side);
-        const vec3 normal = glm::normalize(vec3(unit(), unit(), unit()) - 0.5f);
-        cells[place] = {morton_of(place), 1.0f, vec3(unit(), unit(), unit()), normal};
+        const glm::uvec3 place(random.below(side), random.below(side), random.below(side));
+        const vec3 normal = glm::normalize(random.vector(-0.5f, 0.5f));
+        cells[place] = {morton_of(place), 1.0f, random.vector(0, 1), normal};
     }
     return cells;
 }
@@ -40,21 +40,6 @@ Voxels tree_of(const Cells& cells) {
     voxels.voxel_size = 1.0f;
     EXPECT_TRUE(build_tree(samples, voxels));
     return voxels;
-}
-
-/// Walks the whole tree: act(node index, level, place of its lowest corner).
-template <class Act>
-void visit(const Voxels& voxels, const Act& act, std::uint32_t node = 0, std::uint32_t level = depth,
-           glm::uvec3 place = glm::uvec3(0)) {
-    act(node, level, place);
-    if (level == 0) return;
-    const std::uint32_t link = voxels.links[node];
-    std::uint32_t child = link & (shared::VOXEL_MAX_NODES - 1);
-    for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        if ((link >> shared::VOXEL_LINK_INDEX_BITS >> octant & 1) == 0) continue;
-        const glm::uvec3 step(octant & 1, octant >> 1 & 1, octant >> 2);
-        visit(voxels, act, child++, level - 1, place + (step << (level - 1)));
-    }
 }
 
 /// The exact part of the columns along each axis, of a cube's voxels, that have something in them.
@@ -78,7 +63,7 @@ TEST(VoxelTree, holdsEveryVoxelOnceWhereItIs) {
     EXPECT_EQ(voxels.voxel_count(), cells.size());
     EXPECT_EQ(voxels.links.size(), voxels.level_begin[depth]);
     std::size_t found = 0;
-    visit(voxels, [&](std::uint32_t node, std::uint32_t level, glm::uvec3 place) {
+    walk(voxels, [&](std::uint32_t node, std::uint32_t level, glm::uvec3 place) {
         EXPECT_GE(node, voxels.level_begin[depth - level]);
         EXPECT_LT(node, voxels.level_begin[depth - level + 1]);
         if (level > 0) return;
@@ -113,7 +98,7 @@ TEST(VoxelTree, nodesAreTheMeanOfWhatIsBelow) {
             exact[{level, morton}] = {sum.first / sum.second, coverage_of(cells, level, corner)};
         }
     }
-    visit(voxels, [&](std::uint32_t node, std::uint32_t level, glm::uvec3 place) {
+    walk(voxels, [&](std::uint32_t node, std::uint32_t level, glm::uvec3 place) {
         if (level == 0) return;
         const shared::VoxelNode n = shared::voxel_inner(voxels.nodes[node].x, voxels.nodes[node].y);
         const auto& [color, coverage] = exact.at({level, morton_of(place >> level)});

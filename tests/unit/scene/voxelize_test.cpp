@@ -7,6 +7,7 @@
 
 #include "render/scene/scene_builder.h"
 #include "shaders/shared/voxels.h"
+#include "tests/unit/scene/voxel_walk.h"
 
 namespace foveray::scene {
 namespace {
@@ -17,21 +18,11 @@ struct Voxel {
 
 std::vector<Voxel> voxels_in(const Voxels& v) {
     std::vector<Voxel> found;
-    const auto visit = [&](const auto& self, std::uint32_t node, std::uint32_t level,
-                           glm::uvec3 place) -> void {
-        if (level == 0) {
-            found.push_back({v.origin + v.voxel_size * (vec3(place) + 0.5f),
-                             shared::voxel_color(v.nodes[node].x),
-                             shared::voxel_leaf_normal(v.nodes[node].y)});
-            return;
-        }
-        std::uint32_t child = v.links[node] & (shared::VOXEL_MAX_NODES - 1);
-        for (std::uint32_t o = 0; o < 8; ++o) {
-            if ((v.links[node] >> shared::VOXEL_LINK_INDEX_BITS >> o & 1) == 0) continue;
-            self(self, child++, level - 1, place + (glm::uvec3(o & 1, o >> 1 & 1, o >> 2) << (level - 1)));
-        }
-    };
-    visit(visit, 0, v.depth, glm::uvec3(0));
+    walk(v, [&](std::uint32_t node, std::uint32_t level, glm::uvec3 place) {
+        if (level > 0) return;
+        found.push_back({v.origin + v.voxel_size * (vec3(place) + 0.5f), shared::voxel_color(v.nodes[node].x),
+                         shared::voxel_leaf_normal(v.nodes[node].y)});
+    });
     return found;
 }
 
