@@ -26,6 +26,19 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
     return "did you mean \"" + std::string(nearest(word, names)) + "\"? There are " + list_of(names);
 }
 
+/// A key that objects of one kind alone have.
+struct OwnKey {
+    const char* name;
+    ShapeKind kind;
+    const char* pronoun;
+};
+
+constexpr OwnKey own_keys[] = {{"bounds", ShapeKind::User, "them"},
+                               {"parts", ShapeKind::Blend, "them"},
+                               {"solid", ShapeKind::Csg, "one"},
+                               {"voxelize", ShapeKind::Voxels, "one"},
+                               {"voxel_size", ShapeKind::Voxels, "one"}};
+
 /// One object of a scene file.
 class ObjectReader {
   public:
@@ -33,9 +46,12 @@ class ObjectReader {
         : builder_(builder), values_(values), json_(json), place_(place) {}
 
     void read() {
-        Shape shape = read_shape();
-        ShapeKindInfo kind = shape_kind(shape.kind);
-        if (shape.kind == ShapeKind::User) kind.parameters = user_parameters(builder_.so_far(), shape);
+        const ShapeKindInfo& kind = wanted_kind();
+        refuse_keys_of_other_kinds(kind.kind);
+        Shape shape = read_shape(kind.kind);
+        const std::vector<ShapeParameter> parameters =
+            kind.kind == ShapeKind::User ? user_parameters(builder_.so_far(), shape) : kind.parameters;
+        shape.values = parameter_values(parameters);
         Node node;
         node.name = json_.value("name", std::string(kind.name));
         node.parent = parent();
@@ -50,81 +66,61 @@ class ObjectReader {
         shape.name = node.name;
         shape.material = builder_.add(material());
         node.shape = builder_.add(std::move(shape));
-        add_animation(builder_.add(std::move(node)), kind);
+        add_animation(builder_.add(std::move(node)), parameters);
     }
 
   private:
-    Shape read_shape() {
+    const ShapeKindInfo& wanted_kind() const {
         const std::string name = json_["shape"];
         std::vector<std::string_view> names;
         for (const ShapeKindInfo& kind : shape_kinds()) {
+            if (kind.name == name) return kind;
             names.push_back(kind.name);
-            if (kind.name != name) continue;
-            if (kind.kind == ShapeKind::User) return user_shape();
-            if (json_.contains("bounds")) {
-                values_.fault(place_ + "/bounds", "only a user shape has them", "leave them out");
-            }
-            Shape shape;
-            shape.kind = kind.kind;
-            shape.values = default_values(kind.parameters);
-            read_parameters(kind.parameters, shape.values);
-            if (kind.kind == ShapeKind::Voxels) {
-                const Shape voxels = read_voxel_object(builder_, values_, json_, place_);
-                shape.voxels = voxels.voxels;
-                shape.voxels_source = voxels.voxels_source;
-            } else {
-                refuse_voxel_keys();
-            }
-            if (kind.kind == ShapeKind::Blend) shape.blend_parts = blend_parts();
-            if (kind.kind != ShapeKind::Blend && json_.contains("parts")) {
-                values_.fault(place_ + "/parts", "only a blend shape has them", "leave them out");
-            }
-            if (kind.kind == ShapeKind::Csg) shape.solid = solid();
-            if (kind.kind != ShapeKind::Csg && json_.contains("solid")) {
-                values_.fault(place_ + "/solid", "only a csg shape has one", "leave it out");
-            }
-            return shape;
         }
         values_.fault(place_ + "/shape", "\"" + name + "\" is no shape", did_you_mean(name, names));
     }
 
-    void refuse_voxel_keys() const {
-        for (const char* key : {"voxelize", "voxel_size"}) {
-            if (!json_.contains(key)) continue;
-            values_.fault(place_ + "/" + key, "only a voxels shape has one", "leave it out");
+    void refuse_keys_of_other_kinds(ShapeKind kind) const {
+        for (const OwnKey& key : own_keys) {
+            if (key.kind == kind || !json_.contains(key.name)) continue;
+            values_.fault(place_ + "/" + key.name,
+                          fmt::format("only a {} shape has {}", shape_kind(key.kind).name, key.pronoun),
+                          "leave the key out");
         }
     }
 
-    Shape user_shape() {
-        Shape shape = read_user_object(builder_, values_, json_, place_);
-        const std::vector<ShapeParameter> parameters = user_parameters(builder_.so_far(), shape);
-        shape.values = default_values(parameters);
-        read_parameters(parameters, shape.values);
+    /// Still without the parameters' values.
+    Shape read_shape(ShapeKind kind) {
+        if (kind == ShapeKind::User) return read_user_object(builder_, values_, json_, place_);
+        if (kind == ShapeKind::Voxels) return read_voxel_object(builder_, values_, json_, place_);
+        Shape shape;
+        shape.kind = kind;
+        if (kind == ShapeKind::Blend) {
+            shape.blend_parts = read_blend_parts(values_, needed("parts"), place_ + "/parts");
+        }
+        if (kind == ShapeKind::Csg) {
+            shape.solid = read_solid(builder_, values_, needed("solid"), place_ + "/solid");
+        }
         return shape;
     }
 
-    std::vector<BlendPart> blend_parts() const {
-        if (!json_.contains("parts")) {
-            values_.fault(place_, "has no \"parts\"", "give some: docs/scene-format.md shows how");
+    const Json& needed(const char* key) const {
+        if (!json_.contains(key)) {
+            values_.fault(place_, fmt::format("has no \"{}\"", key), "see docs/scene-format.md");
         }
-        return read_blend_parts(values_, json_["parts"], place_ + "/parts");
+        return json_[key];
     }
 
-    CsgSolid solid() {
-        if (!json_.contains("solid")) {
-            values_.fault(place_, "has no \"solid\"", "give one: docs/scene-format.md shows how");
-        }
-        return read_solid(builder_, values_, json_["solid"], place_ + "/solid");
-    }
-
-    void read_parameters(std::span<const ShapeParameter> parameters, std::vector<float>& into) {
+    std::vector<float> parameter_values(std::span<const ShapeParameter> parameters) const {
+        std::vector<float> result = default_values(parameters);
         const Json given = json_.value("parameters", Json::object());
         for (const auto& [name, value] : given.items()) {
             const std::string place = place_ + "/parameters/" + name;
             const ShapeParameter& parameter = parameter_named(parameters, name, place);
-            const std::vector<float> read = numbers(value, parameter, place);
-            std::ranges::copy(read, into.begin() + *parameter_offset(parameters, name));
+            std::ranges::copy(numbers(value, parameter, place),
+                              result.begin() + *parameter_offset(parameters, name));
         }
+        return result;
     }
 
     const ShapeParameter& parameter_named(std::span<const ShapeParameter> parameters, const std::string& name,
@@ -185,7 +181,7 @@ class ObjectReader {
         return found;
     }
 
-    void add_animation(NodeId node, const ShapeKindInfo& kind) {
+    void add_animation(NodeId node, std::span<const ShapeParameter> parameters) {
         const Json channels = json_.value("animation", Json::array());
         Animation animation;
         animation.name = json_.value("name", "object");
@@ -198,16 +194,16 @@ class ObjectReader {
                               "keep one of them");
             }
             moved.push_back(property);
-            animation.channels.push_back(channel(channels[i], place, node, kind));
+            animation.channels.push_back(channel(channels[i], place, node, parameters));
         }
         if (!animation.channels.empty()) builder_.add(std::move(animation));
     }
 
     AnimationChannel channel(const Json& json, const std::string& place, NodeId node,
-                             const ShapeKindInfo& kind) const {
+                             std::span<const ShapeParameter> parameters) const {
         AnimationChannel c;
         c.node = node;
-        const ShapeParameter property = animated(json["property"], place, kind, c);
+        const ShapeParameter property = animated(json["property"], place, parameters, c);
         c.width = property.width;
         const std::string way = json.value("interpolation", "linear");
         c.interpolation = way == "step"    ? Interpolation::Step
@@ -238,22 +234,22 @@ class ObjectReader {
     }
 
     /// What the channel moves, with the width and range of its values.
-    ShapeParameter animated(const std::string& name, const std::string& place, const ShapeKindInfo& kind,
-                            AnimationChannel& channel) const {
+    ShapeParameter animated(const std::string& name, const std::string& place,
+                            std::span<const ShapeParameter> parameters, AnimationChannel& channel) const {
         static const std::vector<ShapeParameter> transform = {
             {"translation", 3, vec4(0.0f), -1e6f, 1e6f},
             {"rotation", 4, vec4(0.0f), -1.0f, 1.0f},
             {"scale", 3, vec4(1.0f), 1e-6f, 1e6f},
         };
         std::vector<ShapeParameter> all = transform;
-        all.insert(all.end(), kind.parameters.begin(), kind.parameters.end());
+        all.insert(all.end(), parameters.begin(), parameters.end());
         const ShapeParameter found = parameter_named(all, name, place + "/property");
         channel.property = name == "translation" ? AnimatedProperty::Translation
                            : name == "rotation"  ? AnimatedProperty::Rotation
                            : name == "scale"     ? AnimatedProperty::Scale
                                                  : AnimatedProperty::ShapeValues;
         if (channel.property == AnimatedProperty::ShapeValues) {
-            channel.first_value = *parameter_offset(kind.parameters, name);
+            channel.first_value = *parameter_offset(parameters, name);
         }
         return found;
     }

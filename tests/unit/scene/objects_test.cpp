@@ -56,6 +56,8 @@ TEST_F(SceneObjects, badValuesAreNamed) {
     expect_bad({{"shape", "oriented_box"}, {"parameters", {{"orientation", {0, 0, 0, 0}}}}},
                "is no rotation");
     expect_bad({{"shape", "sphere"}, {"transform", {{"scale", {1, 0, 1}}}}}, "/objects/0/transform/scale");
+    expect_bad({{"shape", "voxels"}, {"file", "a.vox"}, {"parts", {{{"sphere", Json::object()}}}}},
+               "/objects/0/parts: only a blend shape has them");
     expect_bad({{"shape", "sphere"}, {"solid", {{"sphere", Json::object()}}}}, "only a csg shape has one");
 }
 
