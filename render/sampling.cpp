@@ -15,8 +15,8 @@ namespace {
 
 constexpr vk::DeviceSize mask_bytes = hidden_mask_words * sizeof(std::uint32_t);
 
-/// Positions that cover a pixel evenly however many are taken: Roberts' R2 sequence, moved so that their mean is the
-/// pixel's centre and the picture stays where it is.
+/// Positions that cover a pixel evenly however many are taken: Roberts' R2 sequence, moved so that their mean
+/// is the pixel's centre and the picture stays where it is.
 std::vector<vec2> sub_sample_positions(std::uint32_t count) {
     std::vector<vec2> positions;
     vec2 sum(0.0f);
@@ -28,6 +28,39 @@ std::vector<vec2> sub_sample_positions(std::uint32_t count) {
     }
     for (vec2& position : positions) position += 0.5f - sum / static_cast<float>(count);
     return positions;
+}
+
+/// Adds the parameters of a grid whose kind, samples and blocks are given.
+NewSampleGrid with_params(SampleGrid grid, std::span<const View> views, const Pose& world_from_stage) {
+    assert(!views.empty() && views.size() <= shared::MAX_VIEWS);
+    shared::SampleGrid params{};
+    params.kind = grid.kind;
+    params.view_count = static_cast<std::uint32_t>(views.size());
+    params.sample_count = grid.sample_count;
+    params.jitter = vec2(0.5f);
+    params.sub_sample_count = grid.sub_sample_count;
+    params.polar = grid.polar;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        shared::ViewParams& view = params.views[i];
+        view = view_params(views[i], world_from_stage);
+        view.first_sample = grid.blocks[grid.kind == shared::GRID_PIXELS ? i : view.eye].first;
+    }
+    return {params, std::move(grid)};
+}
+
+/// The samples of both eyes' polar images.
+NewSampleGrid polar_grid(const SamplingInput& input) {
+    const shared::PolarMap polar =
+        widen_fovea(make_polar_map(effective_acuity(input.acuity, input.settings),
+                                   input.settings.resolution_scale, input.settings.angular_ratio),
+                    input.fovea.radius_degrees);
+    const std::uint32_t eye_samples = polar.width * polar.height;
+    SampleGrid grid;
+    grid.kind = shared::GRID_POLAR;
+    grid.sample_count = 2 * eye_samples;
+    grid.blocks = {{0, polar.width, polar.height}, {eye_samples, polar.width, polar.height}};
+    grid.polar = polar;
+    return with_params(std::move(grid), input.frame.views, input.world_from_stage);
 }
 
 }  // namespace
@@ -53,6 +86,16 @@ shared::ViewParams view_params(const View& view, const Pose& world_from_stage) {
                        std::tan(view.fov.down)};
     params.size = view.size;
     return params;
+}
+
+NewSampleGrid pixel_grid(std::span<const View> views, const Pose& world_from_stage) {
+    SampleGrid grid;
+    grid.kind = shared::GRID_PIXELS;
+    for (const View& view : views) {
+        grid.blocks.push_back({grid.sample_count, view.size.x, view.size.y});
+        grid.sample_count += view.size.x * view.size.y;
+    }
+    return with_params(std::move(grid), views, world_from_stage);
 }
 
 SamplingStage::SamplingStage(const gpu::Device& device, std::uint32_t slots,
@@ -94,40 +137,15 @@ SampleGrid SamplingStage::record(const gpu::Commands& cmd, std::uint32_t slot_in
                                  const SamplingInput& input) {
     const auto stage = cmd.stage("sampling");
     Slot& slot = slots_[slot_index];
-    const auto& views = input.frame.views;
-    assert(!views.empty() && views.size() <= shared::MAX_VIEWS);
-
-    SampleGrid grid;
-    grid.kind = input.every_pixel ? shared::GRID_PIXELS : shared::GRID_POLAR;
-    grid.sub_sample_count =
-        input.every_pixel ? static_cast<std::uint32_t>(input.settings.reference_samples) : 1u;
-    grid.polar = widen_fovea(make_polar_map(effective_acuity(input.acuity, input.settings),
-                                            input.settings.resolution_scale, input.settings.angular_ratio),
-                             input.fovea.radius_degrees);
-
-    shared::SampleGrid params{};
-    params.kind = grid.kind;
-    params.view_count = static_cast<std::uint32_t>(views.size());
-    params.frame_index = static_cast<std::uint32_t>(input.frame.index);
+    const std::span<const View> views = input.frame.views;
+    auto [params, grid] = input.every_pixel ? pixel_grid(views, input.world_from_stage) : polar_grid(input);
+    if (input.every_pixel)
+        grid.sub_sample_count = static_cast<std::uint32_t>(input.settings.reference_samples);
     params.sub_sample_count = grid.sub_sample_count;
+    params.frame_index = static_cast<std::uint32_t>(input.frame.index);
     params.gaze_frames = gaze_frames_.address();
-    params.polar = grid.polar;
-    const std::uint32_t eye_samples = grid.polar.width * grid.polar.height;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        shared::ViewParams& view = params.views[i];
-        view = view_params(views[i], input.world_from_stage);
-        view.hidden_mask = hidden_mask(slot, i, views[i].fov, input.hidden);
-        view.first_sample = input.every_pixel ? grid.sample_count : view.eye * eye_samples;
-        if (!input.every_pixel) continue;
-        grid.blocks.push_back({grid.sample_count, view.size.x, view.size.y});
-        grid.sample_count += view.size.x * view.size.y;
-    }
-    if (!input.every_pixel) {
-        grid.blocks = {{0, grid.polar.width, grid.polar.height},
-                       {eye_samples, grid.polar.width, grid.polar.height}};
-        grid.sample_count = 2 * eye_samples;
-    }
-    params.sample_count = grid.sample_count;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        params.views[i].hidden_mask = hidden_mask(slot, i, views[i].fov, input.hidden);
 
     std::vector<shared::SampleGrid> sub_samples(grid.sub_sample_count, params);
     const std::vector<vec2> positions = sub_sample_positions(grid.sub_sample_count);

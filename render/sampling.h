@@ -29,7 +29,7 @@ struct SampleGrid {
     std::uint32_t sample_count = 0;      // of all eyes or views, culled ones included
     std::uint32_t sub_sample_count = 1;  // passes over the grid, to be averaged; 1 for polar grids
     std::vector<SampleBlock> blocks;     // all samples, in order
-    shared::PolarMap polar{};
+    shared::PolarMap polar{};            // of a polar grid
 
     vk::DeviceAddress at(std::uint32_t sub_sample) const {
         return grids + sub_sample * sizeof(shared::SampleGrid);
@@ -39,6 +39,14 @@ struct SampleGrid {
 /// The headset's acuity with what the settings override.
 Acuity effective_acuity(const Acuity& headset, const Settings& settings);
 shared::ViewParams view_params(const View& view, const Pose& world_from_stage);
+
+/// A grid that the GPU does not have yet: `params` go where `grid.grids` shall point.
+struct NewSampleGrid {
+    shared::SampleGrid params{};
+    SampleGrid grid;
+};
+/// A sample in the middle of each pixel, view by view.
+NewSampleGrid pixel_grid(std::span<const View> views, const Pose& world_from_stage);
 
 struct SamplingInput {
     const Frame& frame;

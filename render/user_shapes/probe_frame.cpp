@@ -54,29 +54,16 @@ ProbeFrame::ProbeFrame(const gpu::Device& device, gpu::TextureTable& textures, c
       readback_(device, "probe surfaces", pixels * sizeof(shared::Surface), gpu::Residence::Readback) {}
 
 std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views) {
-    shared::SampleGrid grid{};
-    grid.kind = shared::GRID_PIXELS;
-    grid.view_count = static_cast<std::uint32_t>(views.size());
-    grid.jitter = vec2(0.5f);
-    grid.sub_sample_count = 1;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        grid.views[i] = render::view_params(views[i], {});
-        grid.views[i].first_sample = grid.sample_count;
-        grid.sample_count += side * side;
-    }
-    grid_.write(gpu::bytes_of(grid));
-    render::SampleGrid samples;
-    samples.grids = grid_.address();
-    samples.kind = grid.kind;
-    samples.sample_count = grid.sample_count;
-    samples.blocks = {{0, side, grid.sample_count / side}};
+    auto [params, grid] = render::pixel_grid(views, {});
+    grid_.write(gpu::bytes_of(params));
+    grid.grids = grid_.address();
 
     const vk::DeviceSize size = grid.sample_count * sizeof(shared::Surface);
     const gpu::Commands cmd = ring_.begin();
     counters_.clear(cmd);
     const render::GpuSceneFrame frame = gpu_scene_.record(cmd, 0, animator_.advance(0), {});
     accel_.record(cmd, 0, frame, pipeline_);
-    const render::Surfaces hits = primary_.record(cmd, samples, 0, counters_.address());
+    const render::Surfaces hits = primary_.record(cmd, grid, 0, counters_.address());
     cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::TransferRead);
     cmd->copyBuffer(hits.buffer->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
     cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);

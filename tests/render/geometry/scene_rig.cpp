@@ -28,25 +28,12 @@ SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
       counters_(device, slots) {}
 
 SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_from_stage) {
-    SampleGrid result;
-    shared::SampleGrid grid{};
-    grid.kind = shared::GRID_PIXELS;
-    grid.view_count = static_cast<std::uint32_t>(views.size());
-    grid.jitter = vec2(0.5f);
-    grid.sub_sample_count = 1;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        grid.views[i] = view_params(views[i], world_from_stage);
-        grid.views[i].first_sample = grid.sample_count;
-        result.blocks.push_back({grid.sample_count, views[i].size.x, views[i].size.y});
-        grid.sample_count += views[i].size.x * views[i].size.y;
-    }
+    auto [params, grid] = pixel_grid(views, world_from_stage);
     ring_.wait();
-    grid_ = gpu::Buffer(device_, "test grid", sizeof grid, gpu::Residence::Upload);
-    grid_.write(gpu::bytes_of(grid));
-    result.grids = grid_.address();
-    result.kind = grid.kind;
-    result.sample_count = grid.sample_count;
-    return result;
+    grid_ = gpu::Buffer(device_, "test grid", sizeof params, gpu::Residence::Upload);
+    grid_.write(gpu::bytes_of(params));
+    grid.grids = grid_.address();
+    return grid;
 }
 
 std::vector<shared::Surface> SceneRig::surfaces(Nanoseconds time, std::span<const View> views,

@@ -154,19 +154,10 @@ TEST_F(UserShapeRays, FollowAPipelineThatTakesTheOthersPlace) {
     view.size = uvec2(8);
     view.fov = {-0.1f, 0.1f, 0.1f, -0.1f};
     view.stage_from_eye.position = {0.0f, 0.0f, 2.0f};
-    shared::SampleGrid grid{};
-    grid.kind = shared::GRID_PIXELS;
-    grid.view_count = 1;
-    grid.sample_count = 64;
-    grid.sub_sample_count = 1;
-    grid.views[0] = render::view_params(view, {});
-    gpu::Buffer grids(device(), "test grid", sizeof grid, gpu::Residence::Upload);
-    grids.write(gpu::bytes_of(grid));
-    render::SampleGrid samples;
-    samples.grids = grids.address();
-    samples.kind = grid.kind;
-    samples.sample_count = grid.sample_count;
-    samples.blocks = {{0, 8, 8}};
+    auto [params, grid] = render::pixel_grid({&view, 1}, {});
+    gpu::Buffer params_buffer(device(), "test grid", sizeof params, gpu::Residence::Upload);
+    params_buffer.write(gpu::bytes_of(params));
+    grid.grids = params_buffer.address();
 
     gpu::TextureTable textures(device());
     gpu::FrameRing ring(device(), 1);
@@ -181,7 +172,7 @@ TEST_F(UserShapeRays, FollowAPipelineThatTakesTheOthersPlace) {
         counters.clear(cmd);
         const render::GpuSceneFrame frame = gpu_scene.record(cmd, 0, animator.advance(0), {});
         accel.record(cmd, 0, frame, pipeline);
-        const render::Surfaces hits = primary.record(cmd, samples, 0, counters.address());
+        const render::Surfaces hits = primary.record(cmd, grid, 0, counters.address());
         ring.submit();
         ring.wait();
         return read_back<shared::Surface>(*hits.buffer, 64)[36].base_color;
