@@ -37,8 +37,7 @@ Shot smaller(Shot shot) {
     return shot;
 }
 
-std::vector<ShotCost> measure(Offscreen& offscreen, const BenchRow& row, const BenchOptions& options) {
-    Shot shot = options.quick ? smaller(row.shot) : row.shot;
+std::vector<ShotCost> measure(Offscreen& offscreen, Shot shot, double frame_ms, const BenchOptions& options) {
     std::vector<ShotCost> costs;
     const auto start = std::chrono::steady_clock::now();
     const auto enough = [&](int frame) {
@@ -47,7 +46,7 @@ std::vector<ShotCost> measure(Offscreen& offscreen, const BenchRow& row, const B
         return frame >= warm_up_frames + 3 && elapsed.count() > options.seconds;
     };
     for (int frame = 0; !enough(frame); ++frame) {
-        shot.time = static_cast<Nanoseconds>(frame * row.frame_ms * 1e6);
+        shot.time = static_cast<Nanoseconds>(frame * frame_ms * 1e6);
         if (auto cost = offscreen.draw(shot)) costs.push_back(std::move(*cost));
     }
     for (ShotCost& cost : offscreen.finish()) costs.push_back(std::move(cost));
@@ -92,12 +91,16 @@ std::string file_name(const std::string& row) {
 
 Result run_row(const gpu::Device& device, user_shapes::ShapeStore& shapes, const BenchRow& row,
                const BenchOptions& options) {
+    const scene::Scene scene = row.scene();
+    Shot shot = row.shot(scene);
+    for (const std::string& assignment : options.assignments) set(shot.settings, assignment);
+    if (options.quick) shot = smaller(std::move(shot));
     const std::uint64_t before = gpu::used_memory(device);
-    Offscreen offscreen(device, *row.scene, 2, shapes.prepare(*row.scene));
-    const std::vector<ShotCost> costs = measure(offscreen, row, options);
+    Offscreen offscreen(device, scene, 2, shapes.prepare(scene));
+    const std::vector<ShotCost> costs = measure(offscreen, shot, row.frame_ms, options);
     const std::uint64_t memory = gpu::used_memory(device) - before;
     if (!options.out.empty()) {
-        for (std::size_t view = 0; view < row.shot.views.size(); ++view) {
+        for (std::size_t view = 0; view < shot.views.size(); ++view) {
             write_png(options.out / fmt::format("{}_view{}.png", file_name(row.name), view),
                       offscreen.picture(view));
         }
@@ -173,9 +176,8 @@ ExitCode run_bench(const BenchOptions& options) {
         if (!wanted.empty() && std::ranges::find(wanted, table.name) == wanted.end()) continue;
         Json rows = Json::array();
         if (!options.json) print_header();
-        for (BenchRow row : table.rows()) {
+        for (const BenchRow& row : table.rows()) {
             if (row.name.find(options.rows) == std::string::npos) continue;
-            for (const std::string& assignment : options.assignments) set(row.shot.settings, assignment);
             const Result result = run_row(device, shapes, row, options);
             if (!options.json) print(result);
             rows.push_back(to_json(result));

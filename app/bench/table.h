@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,8 @@ namespace foveray::app {
 /// One line of a benchmark's table: a scene looked at in one way.
 struct BenchRow {
     std::string name;
-    std::shared_ptr<const scene::Scene> scene;  // shared by rows, loaded once
-    Shot shot;
+    std::function<scene::Scene()> scene;  // made when the row runs, gone when it has run
+    std::function<Shot(const scene::Scene&)> shot;
     double frame_ms = 1000.0 / 60.0;  // session time from frame to frame
 };
 
