@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace foveray::render {
+namespace {
 
 static_assert(scene::most_blend_parts == shared::BLEND_MOST_PARTS);
 static_assert(static_cast<std::uint32_t>(scene::BlendPrimitive::Box) == shared::BLEND_BOX &&
@@ -11,6 +12,8 @@ static_assert(static_cast<std::uint32_t>(scene::BlendPrimitive::Box) == shared::
 static_assert(static_cast<std::uint32_t>(scene::BlendOperation::Subtract) == shared::BLEND_SUBTRACT &&
               static_cast<std::uint32_t>(scene::BlendOperation::Intersect) == shared::BLEND_INTERSECT);
 
+/// Sizes are those of the object: only what differs between a scale's axes stays in the matrix, which never
+/// lengthens, so that a distance in the part's space is never too long in the object's.
 shared::BlendPart packed(const scene::BlendPart& part) {
     scene::Transform object_from_part = part.object_from_part;
     vec3& scale = object_from_part.scale;
@@ -25,6 +28,8 @@ shared::BlendPart packed(const scene::BlendPart& part) {
     result.operation = static_cast<std::uint32_t>(part.operation);
     return result;
 }
+
+}  // namespace
 
 GpuBlends::GpuBlends(gpu::Uploader& uploader, const scene::Scene& scene) {
     std::vector<shared::BlendPart> parts;

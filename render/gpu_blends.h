@@ -26,8 +26,4 @@ class GpuBlends {
     gpu::Buffer parts_;
 };
 
-/// Sizes are those of the object: only what differs between a scale's axes stays in the matrix, which never
-/// lengthens, so that a distance in the part's space is never too long in the object's.
-shared::BlendPart packed(const scene::BlendPart& part);
-
 }  // namespace foveray::render

@@ -13,22 +13,6 @@ using engine::HitGroup;
 using engine::SceneProgram;
 using scene::ShapeKind;
 
-/// Shapes whose intersection shader finds the normal too.
-template <class Record>
-engine::GeometryType<Record> declare_analytic(SceneProgram& program, const std::string& name) {
-    const std::string intersection = "render/shapes/" + name + ".rint";
-    return program.add_geometry_type<Record>(name, HitGroup{"render/shapes/analytic.rchit", "", intersection},
-                                             HitGroup{"", "render/shapes/shadow.rahit", intersection});
-}
-
-/// Shapes whose normal, colour and more a closest-hit shader of their own finds.
-template <class Record>
-engine::GeometryType<Record> declare_distance(SceneProgram& program, const std::string& name) {
-    const std::string shaders = "render/shapes/" + name;
-    return program.add_geometry_type<Record>(name, HitGroup{shaders + ".rchit", "", shaders + ".rint"},
-                                             HitGroup{"", "render/shapes/shadow.rahit", shaders + ".rint"});
-}
-
 shared::JuliaRecord julia_record(std::span<const float> v, const shared::ShapeHeader& header) {
     const scene::Julia julia(v);
     shared::JuliaRecord record{};
@@ -84,34 +68,25 @@ ShapeTypes::ShapeTypes(SceneProgram& program, const scene::Scene& scene, const U
         types_.users.push_back(declare_user(program, scene.user_shapes[id], users[id], id));
         user_uses_time_.push_back(users[id].uses_time);
     }
-    const auto has = [&](ShapeKind kind) {
-        return std::ranges::find(scene.shapes, kind, &scene::Shape::kind) != scene.shapes.end();
+    // Type and intersection shader have the same name.
+    const auto declare = [&]<class Record>(ShapeKind kind, engine::GeometryType<Record>& type,
+                                           const std::string& name, const std::string& closest_hit,
+                                           const std::string& shadow = "shadow") {
+        if (std::ranges::find(scene.shapes, kind, &scene::Shape::kind) == scene.shapes.end()) return;
+        const std::string folder = "render/shapes/", intersection = folder + name + ".rint";
+        type = program.add_geometry_type<Record>(name,
+                                                 HitGroup{folder + closest_hit + ".rchit", "", intersection},
+                                                 HitGroup{"", folder + shadow + ".rahit", intersection});
     };
-    if (has(ShapeKind::Sphere)) types_.sphere = declare_analytic<shared::SphereRecord>(program, "sphere");
-    if (has(ShapeKind::Box)) types_.box = declare_analytic<shared::BoxRecord>(program, "box");
-    if (has(ShapeKind::OrientedBox)) {
-        types_.oriented_box = declare_analytic<shared::OrientedBoxRecord>(program, "oriented_box");
-    }
-    if (has(ShapeKind::Plane)) {
-        types_.plane = program.add_geometry_type<shared::PlaneRecord>(
-            "plane", HitGroup{"render/shapes/plane.rchit", "", "render/shapes/plane.rint"},
-            HitGroup{"", "render/shapes/shadow.rahit", "render/shapes/plane.rint"});
-    }
-    if (has(ShapeKind::Julia)) types_.julia = declare_distance<shared::JuliaRecord>(program, "julia");
-    if (has(ShapeKind::Mandelbulb)) {
-        types_.mandelbulb = declare_distance<shared::MandelbulbRecord>(program, "mandelbulb");
-    }
-    if (has(ShapeKind::Voxels)) {
-        types_.voxels = program.add_geometry_type<shared::VoxelRecord>(
-            "voxels", HitGroup{"render/shapes/voxels.rchit", "", "render/shapes/voxels.rint"},
-            HitGroup{"", "render/shapes/voxels_shadow.rahit", "render/shapes/voxels.rint"});
-    }
-    if (has(ShapeKind::Blend)) types_.blend = declare_distance<shared::BlendRecord>(program, "blend");
-    if (has(ShapeKind::Csg)) {
-        types_.csg = program.add_geometry_type<shared::CsgRecord>(
-            "csg", HitGroup{"render/shapes/csg.rchit", "", "render/shapes/csg.rint"},
-            HitGroup{"", "render/shapes/csg_shadow.rahit", "render/shapes/csg.rint"});
-    }
+    declare(ShapeKind::Sphere, types_.sphere, "sphere", "analytic");
+    declare(ShapeKind::Box, types_.box, "box", "analytic");
+    declare(ShapeKind::OrientedBox, types_.oriented_box, "oriented_box", "analytic");
+    declare(ShapeKind::Plane, types_.plane, "plane", "plane");
+    declare(ShapeKind::Julia, types_.julia, "julia", "julia");
+    declare(ShapeKind::Mandelbulb, types_.mandelbulb, "mandelbulb", "mandelbulb");
+    declare(ShapeKind::Voxels, types_.voxels, "voxels", "voxels", "voxels_shadow");
+    declare(ShapeKind::Blend, types_.blend, "blend", "blend");
+    declare(ShapeKind::Csg, types_.csg, "csg", "csg", "csg_shadow");
 }
 
 ShapeTypes::Geometry ShapeTypes::geometry(const scene::Shape& shape, std::span<const float> v,
