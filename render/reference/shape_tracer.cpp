@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "render/reference/csg.h"
+#include "render/reference/march.h"
+#include "render/reference/voxel_tracer.h"
 
 namespace foveray::reference {
 namespace {
@@ -21,7 +24,6 @@ Intervals through_oriented_box(std::span<const float> v, const Ray& ray) {
     return result;
 }
 
-/// The checker pattern is not filtered.
 std::vector<Crossing> through_plane(std::span<const float> v, const Ray& ray) {
     if (ray.direction.y == 0.0) return {};
     Crossing crossing;
@@ -48,6 +50,41 @@ std::vector<Crossing> ends_of(const Intervals& intervals) {
     return result;
 }
 
+/// A march through the part of the ray that is in the shape's bounds.
+template <typename Tint>
+std::vector<Crossing> marched(const scene::Shape& shape, std::span<const float> v, const Ray& ray,
+                              const Field& field, const Tint& tint) {
+    const scene::Aabb bounds = scene::bounds_of(shape, v);
+    Ray centred = ray;
+    centred.origin -= dvec3(bounds.center());
+    const Intervals within = through_box(0.5 * dvec3(bounds.extent()), centred);
+    if (within.empty()) return {};
+    const double step = glm::length(dvec3(bounds.extent())) / glm::length(ray.direction) / 2000.0;
+    Ray part = ray;  // begins outside the bounds, where a cut's plane may lie
+    part.nearest = std::max(ray.nearest, within.front().entry.distance - step);
+    part.farthest = std::min(ray.farthest, within.front().exit.distance + step);
+    if (!(part.nearest < part.farthest)) return {};
+    std::vector<Crossing> result = through_field(part, field, step);
+    for (Crossing& crossing : result) crossing.tint = tint(ray.origin + crossing.distance * ray.direction);
+    return result;
+}
+
+std::vector<Crossing> through_blend(const scene::Shape& shape, std::span<const float> v, const Ray& ray) {
+    return marched(shape, v, ray, field_of(shape.blend_parts, v[0]),
+                   [&](const dvec3& p) { return tint_of(shape.blend_parts, v[0], p); });
+}
+
+template <class Fractal>
+std::vector<Crossing> through_fractal(const scene::Shape& shape, std::span<const float> v, const Ray& ray) {
+    const Fractal fractal(v);
+    return marched(shape, v, ray, field_of(fractal), [&](const dvec3& p) { return tint_of(fractal, p); });
+}
+
+std::vector<Crossing> through_voxels(const scene::Voxels& voxels, const Ray& ray) {
+    const std::optional<Crossing> first = first_voxel(voxels, ray);
+    return first ? std::vector{*first} : std::vector<Crossing>{};
+}
+
 std::vector<Crossing> all_crossings(const scene::Shape& shape, std::span<const float> v, const Ray& ray) {
     switch (shape.kind) {
         case scene::ShapeKind::Sphere:
@@ -60,9 +97,19 @@ std::vector<Crossing> all_crossings(const scene::Shape& shape, std::span<const f
             return through_plane(v, ray);
         case scene::ShapeKind::Csg:
             return ends_of(through_solid(shape.solid, shape.material, ray));
-        default:
-            return {};  // no closed form
+        case scene::ShapeKind::Julia:
+            return through_fractal<scene::Julia>(shape, v, ray);
+        case scene::ShapeKind::Mandelbulb:
+            return through_fractal<scene::Mandelbulb>(shape, v, ray);
+        case scene::ShapeKind::Blend:
+            return through_blend(shape, v, ray);
+        case scene::ShapeKind::Voxels:
+            return through_voxels(*shape.voxels, ray);
+        case scene::ShapeKind::User:
+            break;
     }
+    throw Fault(ExitCode::Internal, "shape \"" + shape.name + "\"",
+                "the reference tracer cannot run a user's GLSL", "leave users' shapes out of the scene");
 }
 
 }  // namespace

@@ -118,30 +118,35 @@ double Tracer::transmittance(const Ray& ray) const {
         through *= 1.0 - opacity(hit);
         return through > 0.0 ? ray.farthest : -1.0;
     });
-    for (const ShapeHit& hit : shape_hits(ray)) through *= 1.0 - opacity(hit);
+    for (std::uint32_t shape = 0; shape < shapes_.size() && through > 0.0; ++shape) {
+        for (const ShapeHit& hit : shape_hits(ray, shape)) through *= 1.0 - opacity(hit);
+    }
     return through;
 }
 
-std::vector<Tracer::ShapeHit> Tracer::shape_hits(const Ray& ray) const {
+std::vector<Tracer::ShapeHit> Tracer::shape_hits(const Ray& ray, std::uint32_t shape) const {
+    Ray in_object = ray;
+    in_object.origin = dvec3(shapes_[shape].object_from_world * glm::dvec4(ray.origin, 1.0));
+    in_object.direction = glm::dmat3(shapes_[shape].object_from_world) * ray.direction;
     std::vector<ShapeHit> result;
-    for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
-        Ray in_object = ray;
-        in_object.origin = dvec3(shapes_[i].object_from_world * glm::dvec4(ray.origin, 1.0));
-        in_object.direction = glm::dmat3(shapes_[i].object_from_world) * ray.direction;
-        for (const Crossing& crossing : crossings(*shapes_[i].shape, shapes_[i].values, in_object)) {
-            result.push_back({crossing, i});
-        }
+    for (const Crossing& crossing : crossings(*shapes_[shape].shape, shapes_[shape].values, in_object)) {
+        result.push_back({crossing, shape});
     }
     return result;
 }
 
 std::optional<Tracer::ShapeHit> Tracer::closest_shape(const Ray& ray, Side side) const {
     std::optional<ShapeHit> nearest;
-    for (const ShapeHit& hit : shape_hits(ray)) {
-        if (nearest && hit.crossing.distance >= nearest->crossing.distance) continue;
-        const bool culled = side == Side::FrontOnly && hit.crossing.inside &&
-                            !scene_->materials[hit.crossing.material].double_sided;
-        if (!culled) nearest = hit;
+    Ray until = ray;
+    for (std::uint32_t shape = 0; shape < shapes_.size(); ++shape) {
+        for (const ShapeHit& hit : shape_hits(until, shape)) {
+            const bool culled = side == Side::FrontOnly && hit.crossing.inside &&
+                                !scene_->materials[hit.crossing.material].double_sided;
+            if (culled) continue;
+            nearest = hit;
+            until.farthest = hit.crossing.distance;
+            break;
+        }
     }
     return nearest;
 }
@@ -166,6 +171,7 @@ Hit Tracer::describe(const Ray& ray, const ShapeHit& hit) const {
     out.material = hit.crossing.material;
     out.base_color = material.base_color;
     if (hit.crossing.base_color) out.base_color = vec4(*hit.crossing.base_color, out.base_color.a);
+    out.base_color *= vec4(hit.crossing.tint, 1.0f);
     return out;
 }
 

@@ -29,7 +29,8 @@ struct Hit {
 
 enum class Side { Both, FrontOnly };
 
-/// Naive queries over one moment of a scene. Texels are taken from level 0.
+/// Naive queries over one moment of a scene. Texels are taken from level 0, voxels at full resolution.
+/// Scenes with users' shapes throw Fault(Internal) when a ray is asked for (shape_tracer.h).
 class Tracer {
   public:
     enum class What { Instances, RealSurfaces };
@@ -64,8 +65,8 @@ class Tracer {
         std::uint32_t shape;  // index into shapes_
     };
 
-    /// Every crossing of every shape.
-    std::vector<ShapeHit> shape_hits(const Ray& ray) const;
+    /// In order.
+    std::vector<ShapeHit> shape_hits(const Ray& ray, std::uint32_t shape) const;
     std::optional<ShapeHit> closest_shape(const Ray& ray, Side side) const;
     float opacity(const ShapeHit& hit) const;
     Hit describe(const Ray& ray, const ShapeHit& hit) const;

@@ -55,11 +55,13 @@ const std::vector<Example>& examples() {
     return list;
 }
 
-reference::IsInside inside_of(const Example& example) {
-    if (example.kind == ShapeKind::Julia) return reference::inside_of(scene::Julia(example.values));
-    if (example.kind == ShapeKind::Mandelbulb) return reference::inside_of(scene::Mandelbulb(example.values));
-    return reference::inside_of(parts(), example.values[0]);
+reference::Field field_of(const Example& example) {
+    if (example.kind == ShapeKind::Julia) return reference::field_of(scene::Julia(example.values));
+    if (example.kind == ShapeKind::Mandelbulb) return reference::field_of(scene::Mandelbulb(example.values));
+    return reference::field_of(parts(), example.values[0]);
 }
+
+reference::IsInside inside_of(const Example& example) { return reference::inside_of(field_of(example)); }
 
 /// Each example once, turned and unevenly scaled, in a row along x.
 scene::Scene row_of_examples() {
@@ -151,7 +153,7 @@ TEST_F(DistanceShapes, RaysFromOutsideStopAtTheSet) {
                 ray.nearest = 2.0, ray.farthest = 8.0;  // the shape is within 3 m of its middle
                 const double rate = glm::length(ray.direction);
                 const shared::Surface& s = answers[i].surface;
-                const auto truth = reference::first_crossing(ray, inside, 2e-3 / rate);
+                const auto truth = reference::first_side_change(ray, inside, 2e-3 / rate);
                 const bool hit = s.kind == shared::SURFACE_VIRTUAL;
                 EXPECT_EQ(hit, answers[i].transmittance == vec3(0.0f)) << i;
                 // What is thicker than the cone must not be passed.
@@ -172,7 +174,7 @@ TEST_F(DistanceShapes, RaysFromOutsideStopAtTheSet) {
 
                 const dvec3 p = ray.origin + double{s.distance} * ray.direction;
                 if (examples()[e].kind == ShapeKind::Blend) {
-                    EXPECT_LE(reference::blend_distance(parts(), examples()[e].values[0], p), near);
+                    EXPECT_LE(field_of(examples()[e])(p), near);
                 } else if (!reference::has_both_sides(inside, p, 8.0 * near, 4000)) {
                     ++off;
                 }
@@ -202,8 +204,8 @@ TEST_F(DistanceShapes, RaysFromInsideStopWhereTheyLeave) {
             if (examples()[e].kind != ShapeKind::Blend) continue;
             EXPECT_NE(s.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
             const dvec3 p = ray.origin + double{s.distance} * ray.direction;
-            EXPECT_NEAR(reference::blend_distance(parts(), examples()[e].values[0], p), 0.0, 1e-3);
-            const auto truth = reference::first_crossing(ray, inside, 1e-3);
+            EXPECT_NEAR(field_of(examples()[e])(p), 0.0, 1e-3);
+            const auto truth = reference::first_side_change(ray, inside, 1e-3);
             ASSERT_TRUE(truth.has_value());
             EXPECT_LE(s.distance, truth->distance + 1e-4);
         }
@@ -291,7 +293,7 @@ TEST_F(DistanceShapes, FollowTheirAnimatedParameters) {
         sizes.push_back(now.bounds.max.x);
         const scene::Julia julia(now.values);
         EXPECT_FLOAT_EQ(now.bounds.max.x, julia.radius());
-        const reference::IsInside inside = reference::inside_of(julia);
+        const reference::IsInside inside = reference::inside_of(reference::field_of(julia));
         int off = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const reference::Ray ray = in_object(rays[i], mat4(1.0f));
