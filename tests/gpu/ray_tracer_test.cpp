@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tests/fakes/expect_fault.h"
 #include "tests/fakes/gpu_fixture.h"
 #include "tests/gpu/probe.h"
 
@@ -149,6 +150,38 @@ TEST_F(RayTracerTest, ChangedRecordsArriveInEverySlot) {
     probe_.tracer.set_table({{narrow(10)}});
     EXPECT_EQ(seen(1, 0), 10u);
     EXPECT_EQ(seen(0, 0), 10u);
+}
+
+TEST_F(RayTracerTest, EntriesAreFoundByOffsetGeometryAndRayType) {
+    const auto wide = [&](std::uint32_t id) { return ProbeProgram::geometry(probe_.wide, wide_record(id)); };
+    const auto narrow = [&](std::uint32_t id) { return ProbeProgram::geometry(probe_.narrow, {id}); };
+    const auto offsets = probe_.tracer.set_table({{wide(10), narrow(11)}, {}, {narrow(20), wide(21)}});
+    const ProbeProgram& program = probe_.tracer.program();
+    const ProbeTracer& tracer = probe_.tracer;
+    for (std::uint32_t type = 0; type < shared::PROBE_RAY_TYPES; ++type) {
+        const auto& first = tracer.entry(offsets[0], 1, type);
+        EXPECT_EQ(first.ray_type, type);
+        EXPECT_EQ(program.hit_groups()[first.hit_group], program.hit_group(probe_.narrow.index, type));
+        EXPECT_EQ(std::get<shared::NarrowRecord>(first.record).id, 11u);
+        const auto& last = tracer.entry(offsets[2], 1, type);
+        EXPECT_EQ(program.hit_groups()[last.hit_group], program.hit_group(probe_.wide.index, type));
+        EXPECT_EQ(std::get<shared::WideRecord>(last.record).id, 21u);
+    }
+    // Of the newest table.
+    probe_.tracer.set_table({{narrow(5)}});
+    EXPECT_EQ(std::get<shared::NarrowRecord>(tracer.entry(0, 0, 2).record).id, 5u);
+    const auto expect_none = [&](std::uint32_t offset, std::uint32_t geometry, std::uint32_t type,
+                                 const std::string& part) {
+        fakes::expect_fault([&] { tracer.entry(offset, geometry, type); }, ExitCode::Internal, part);
+        fakes::expect_fault([&] { tracer.entry(offset, geometry, type); }, ExitCode::Internal,
+                            "program \"probe\"");
+    };
+    expect_none(0, 1, 0,
+                "the shader table has 3 hit records for 3 ray types, none for record offset 0, geometry 1, "
+                "ray type 0");
+    expect_none(0, 0, 3, "ray type 3");
+    expect_none(1, 0, 0, "record offset 1");
+    expect_none(0xFFFFFFFFu, 0xFFFFFFFFu, 0, "geometry 4294967295");
 }
 
 TEST_F(RayTracerTest, RayGenerationShadersShareTheTable) {

@@ -4,6 +4,7 @@
 #include "render/engine/program.h"
 #include "render/engine/table_layout.h"
 #include "shaders/shared/ray_types.h"
+#include "tests/fakes/expect_fault.h"
 
 namespace foveray::engine {
 namespace {
@@ -138,6 +139,54 @@ TEST(ProgramTest, EntriesFollowRangesGeometriesAndRayTypes) {
     EXPECT_EQ(std::get<Cube>(entries[5].record).id, 30u);
 }
 
+TwoTypes balls_and_cubes() {
+    TwoTypes program("toys", RayType{"surface", "a.rmiss"}, RayType{"shadow", "b.rmiss"});
+    program.add_geometry_type<Ball>("ball", HitGroup{"ball.rchit", "", "ball.rint"},
+                                    HitGroup{"", "", "ball.rint"});
+    program.add_geometry_type<Cube>("cube", HitGroup{"cube.rchit", "", ""}, HitGroup{});
+    program.add_geometry_type<Cube>("glass cube", HitGroup{"glass.rchit", "", ""}, HitGroup{});
+    return program;
+}
+
+TEST(ProgramTest, TellsWhatWasDeclared) {
+    TwoTypes program = balls_and_cubes();
+    EXPECT_EQ(program.name(), "toys");
+    EXPECT_EQ(program.ray_types()[1].name, "shadow");
+    EXPECT_EQ(program.ray_types()[1].miss_shader, "b.rmiss");
+    EXPECT_EQ(program.geometry_type_count(), 3u);
+    EXPECT_EQ(program.geometry_type<Ball>("ball").index, 0u);
+    EXPECT_EQ(program.geometry_type<Cube>("glass cube").index, 2u);
+    EXPECT_EQ(program.geometry_type_name(2), "glass cube");
+    EXPECT_EQ(program.hit_group(0, 0), (HitGroup{"ball.rchit", "", "ball.rint"}));
+    EXPECT_EQ(program.hit_group(2, 0), (HitGroup{"glass.rchit", "", ""}));
+    EXPECT_EQ(program.hit_group(2, 1), HitGroup{});
+    const RayGeneration second =
+        (program.add_ray_generation("first.rgen"), program.add_ray_generation("b.rgen"));
+    EXPECT_EQ(program.ray_generation().at(second.index), "b.rgen");
+    program.add_shader("own", {1, 2});
+    program.add_shader("own", {3});
+    EXPECT_EQ(program.own_shaders().at("own"), std::vector<std::uint32_t>{3});
+}
+
+TEST(ProgramTest, WhatIsMissingOrOfAnotherTypeIsNamed) {
+    TwoTypes program = balls_and_cubes();
+    const auto expect = [](auto action, const std::string& part) {
+        fakes::expect_fault(action, ExitCode::Internal, part);
+        fakes::expect_fault(action, ExitCode::Internal, "program \"toys\"");
+    };
+    expect([&] { program.geometry_type<Ball>("cone"); }, "there is no geometry type \"cone\"");
+    expect([&] { program.geometry_type<Ball>("cube"); },
+           "the records of geometry type \"cube\" are of another type");
+    expect([&] { program.add_geometry_type<Ball>("cube", HitGroup{}, HitGroup{}); },
+           "geometry type \"cube\" is added twice");
+    expect(
+        [&] {
+            program.add_geometry_type<Ball>("disc", HitGroup{"", "", "disc.rint"}, HitGroup{});
+        },
+        "geometry type \"disc\" has an intersection shader for some ray types only");
+    EXPECT_EQ(program.geometry_type_count(), 3u) << "what is refused leaves nothing behind";
+}
+
 // What must not compile.
 template <class P, class Record, class... HitGroups>
 concept CanAdd = requires(P program, HitGroups... groups) {
@@ -148,6 +197,11 @@ concept CanPlace = requires(Type type, Record record) {
     P::geometry(type, record);
 };
 
+template <class P, class Record>
+concept CanAsk = requires(const P program) {
+    program.template geometry_type<Record>("x");
+};
+
 static_assert(CanAdd<TwoTypes, Ball, HitGroup, HitGroup>);
 static_assert(!CanAdd<TwoTypes, Ball, HitGroup>, "a missing entry");
 static_assert(!CanAdd<TwoTypes, Ball, HitGroup, HitGroup, HitGroup>);
@@ -155,6 +209,8 @@ static_assert(!CanAdd<TwoTypes, Stranger, HitGroup, HitGroup>, "an undeclared re
 static_assert(CanPlace<TwoTypes, GeometryType<Ball>, Ball>);
 static_assert(!CanPlace<TwoTypes, GeometryType<Ball>, Cube>, "another type's record");
 static_assert(!CanPlace<TwoTypes, GeometryType<Stranger>, Stranger>);
+static_assert(CanAsk<TwoTypes, Cube>);
+static_assert(!CanAsk<TwoTypes, Stranger>, "an undeclared record");
 static_assert(!std::is_constructible_v<TwoTypes, std::string, RayType>, "a missing ray type");
 static_assert(std::is_constructible_v<TwoTypes, std::string, RayType, RayType>);
 
