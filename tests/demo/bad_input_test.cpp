@@ -113,6 +113,45 @@ TEST_F(BadInput, Scenes) {
     refuse({"--scene", folder_.write("bad.glb", "glTF but not really").string()}, "bad.glb");
 }
 
+TEST_F(BadInput, Objects) {
+    const auto refuse_object = [&](const std::string& object, const std::string& part) {
+        refuse(
+            {"--scene",
+             folder_.write("s.json", R"({"format":"foveray-scene","version":1,"objects":[{)" + object + "}]}")
+                 .string()},
+            part);
+    };
+    refuse_object(R"("shape":"spere")", "\"spere\" is no shape");
+    refuse_object(R"("shape":"sphere","parameters":{"radius":-1})", "/objects/0/parameters/radius");
+    refuse_object(R"("shape":"mandelbulb","parameters":{"power":1e300})", "/objects/0/parameters/power");
+    refuse_object(R"("shape":"sphere","transform":{"scale":[1,0,1]})", "/objects/0/transform/scale/1");
+    refuse_object(R"("shape":"csg","solid":{"sphere":{"radius":1e-20}})", "/objects/0/solid");
+    refuse_object(R"("shape":"blend","parts":[])", "/objects/0/parts");
+    folder_.write("ball.glsl", "float distance_at(vec3 p) { return length(p) - 0.5; }");
+    refuse_object(R"("shape":"user","file":"ball.glsl","bounds":{"min":[0,0,0],"max":[0,0,0]})",
+                  "/objects/0/bounds: have no volume");
+    refuse_object(R"("shape":"user","file":"ball.glsl","bounds":{"min":[-1,-1,-1],"max":[1,1e30,1]})",
+                  "/objects/0/bounds: are too large");
+    refuse_object(R"("shape":"user","file":"ball.glsl","bounds":{"min":[-1,-1,-1],"max":[1,1e999,1]})",
+                  "too large");
+    // MagicaVoxel: cut short, and 2^32 - 1 voxels in a chunk of a few bytes.
+    const auto word = [](std::uint32_t value) {
+        std::string bytes(4, '\0');
+        for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i));
+        return bytes;
+    };
+    const std::string size = "SIZE" + word(12) + word(0) + word(2) + word(2) + word(2);
+    const auto vox = [&](const std::string& chunks) {
+        return "VOX " + word(150) + "MAIN" + word(0) + word(static_cast<std::uint32_t>(chunks.size())) +
+               chunks;
+    };
+    const std::string claim = vox(size + "XYZI" + word(8) + word(0) + word(0xFFFFFFFFu) + word(0x01000000u));
+    folder_.write("claim.vox", claim);
+    refuse_object(R"("shape":"voxels","file":"claim.vox")", "claim.vox");
+    folder_.write("short.vox", claim.substr(0, claim.size() - 9));
+    refuse_object(R"("shape":"voxels","file":"short.vox")", "short.vox");
+}
+
 TEST_F(BadInput, GltfContents) {
     folder_.write("white.png", "not a picture");
     refuse({"--scene", gltf("", "")}, "white.png");

@@ -65,6 +65,11 @@ TEST_F(UserShapeProgram, RefusesBadShapes) {
     refuse("float distance_at(vec3 p) {\n  return p.q;\n}", "shape.glsl:2: ");
     refuse("float distance_at(vec3 p) { return length(p) - 0.7; }",
            "shape.glsl:1: distance_at reaches out of its bounds");
+    refuse("float distance_at(vec3 p) { return sqrt(p.x) - 0.1; }", "shape.glsl:1: distance_at returns NaN");
+    refuse(
+        "float distance_at(vec3 p) {\n float x = 0.5;\n for (;;) {\n  x = fract(x * 1.37 + p.x);\n"
+        "  if (x > 2.0) break;\n }\n return x; }",
+        "shape.glsl:1: distance_at does not finish a small picture within 2 s");
     refuse("float distance_at(vec3 p, float x) { return x; }",
            "/objects/0/parameters: shape.glsl takes \"x\"");
     fs::remove(folder_ / "shape.glsl");

@@ -20,9 +20,16 @@ class SceneObjects : public GltfTest {
         return load_scene(folder_.write("scene.json", json.dump()));
     }
     Scene load_solid(const Json& solid) { return load({{"shape", "csg"}, {"solid", solid}}); }
+    Scene load_parts(const Json& parts) { return load({{"shape", "blend"}, {"parts", parts}}); }
     void expect_bad(const Json& object, const std::string& part) {
         fakes::expect_fault([&] { load(object); }, ExitCode::BadInput, part);
         fakes::expect_fault([&] { load(object); }, ExitCode::BadInput, "scene.json");
+    }
+    void expect_bad_parts(const Json& parts, const std::string& part) {
+        expect_bad({{"shape", "blend"}, {"parts", parts}}, part);
+    }
+    void expect_bad_part(const Json& one, const std::string& part) {
+        expect_bad_parts(Json::array({one}), part);
     }
     void expect_bad_solid(const Json& solid, const std::string& part) {
         expect_bad({{"shape", "csg"}, {"solid", solid}}, part);
@@ -59,6 +66,93 @@ TEST_F(SceneObjects, badValuesAreNamed) {
     expect_bad({{"shape", "voxels"}, {"file", "a.vox"}, {"parts", {{{"sphere", Json::object()}}}}},
                "/objects/0/parts: only a blend shape has them");
     expect_bad({{"shape", "sphere"}, {"solid", {{"sphere", Json::object()}}}}, "only a csg shape has one");
+}
+
+TEST_F(SceneObjects, transformsThatCannotBeUndoneAreNamed) {
+    const auto with = [](const Json& transform) {
+        return Json{{"shape", "sphere"}, {"transform", transform}};
+    };
+    expect_bad(with({{"scale", {0, 1, 1}}}), "/objects/0/transform/scale/0");
+    expect_bad(with({{"scale", {1, -1, 1}}}), "/objects/0/transform/scale/1");
+    expect_bad(with({{"scale", {1, 1, 1e300}}}), "/objects/0/transform/scale");
+    expect_bad(with({{"rotation", {0, 0, 0, 0}}}), "/objects/0/transform/rotation: is no rotation");
+    expect_bad(with({{"translation", {0, 1e300, 0}}}), "/objects/0/transform/translation");
+    expect_bad({{"shape", "sphere"}, {"instances", {{{"scale", {1, 1, 0}}}}}},
+               "/objects/0/instances/0/scale/2");
+    const auto animated = [](const char* property, const Json& value) {
+        return Json{{"shape", "sphere"},
+                    {"animation", {{{"property", property}, {"times", {0}}, {"values", {value}}}}}};
+    };
+    expect_bad(animated("scale", {1, 0, 1}), "/objects/0/animation/0/values/0");
+    expect_bad(animated("radius", 0), "/objects/0/animation/0/values/0");
+    expect_bad(animated("radius", 1e300), "/objects/0/animation/0/values/0");
+}
+
+TEST_F(SceneObjects, partsOfBlends) {
+    const Scene scene = load_parts({{{"box", {{"half_size", {0.1, 0.2, 0.3}}}}},
+                                    {{"torus", Json::object()},
+                                     {"operation", "subtract"},
+                                     {"transform", {{"translation", {1, 0, 0}}}},
+                                     {"color", {1, 0, 0}}},
+                                    {{"capsule", {{"radius", 0.1}}}, {"operation", "intersect"}}});
+    const std::vector<BlendPart>& parts = scene.shapes.at(0).blend_parts;
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(parts[0].primitive, BlendPrimitive::Box);
+    expect_near(parts[0].size, {0.1f, 0.2f, 0.3f});
+    EXPECT_EQ(parts[1].operation, BlendOperation::Subtract);
+    expect_near(parts[1].size, {0.4f, 0.1f, 0.0f});
+    expect_near(parts[1].color, {1, 0, 0});
+    EXPECT_EQ(parts[1].object_from_part.translation.x, 1.0f);
+    EXPECT_EQ(parts[2].operation, BlendOperation::Intersect);
+    expect_near(scene.bounds.max, {0.1f, 0.2f, 0.3f});  // what is taken away adds nothing
+}
+
+TEST_F(SceneObjects, badPartsOfBlendsAreNamed) {
+    const Json sphere = {{"sphere", Json::object()}};
+    expect_bad({{"shape", "blend"}}, "has no \"parts\"");
+    expect_bad({{"shape", "sphere"}, {"parts", {sphere}}}, "/objects/0/parts: only a blend shape has them");
+    expect_bad_parts(Json::array(), "/objects/0/parts");
+    expect_bad_part(Json::object(), "/objects/0/parts/0: is no shape");
+    expect_bad_part({{"cone", Json::object()}}, "cone");
+    expect_bad_part({{"sphere", Json::object()}, {"box", Json::object()}}, "is several shapes at once");
+    expect_bad_parts({sphere, {{"sphere", Json::object()}, {"operation", "divide"}}},
+                     "/objects/0/parts/1/operation");
+    expect_bad_part({{"sphere", Json::object()}, {"operation", "subtract"}},
+                    "/objects/0/parts/0/operation: there is nothing yet to subtract");
+    // Parts do not nest.
+    expect_bad_part({{"sphere", Json::object()}, {"parts", {sphere}}}, "parts");
+    expect_bad_part({{"union", {sphere, sphere}}}, "union");
+    EXPECT_NO_THROW(load_parts(leaves(16)));
+    expect_bad_parts(leaves(17), "/objects/0/parts");
+}
+
+TEST_F(SceneObjects, sizesOfBlendsAreChecked) {
+    const auto part = [](const char* kind, const Json& size) { return Json{{kind, size}}; };
+    expect_bad_part(part("sphere", {{"radius", 0}}), "/objects/0/parts/0/sphere/radius");
+    expect_bad_part(part("sphere", {{"radius", -1}}), "/objects/0/parts/0/sphere/radius");
+    expect_bad_part(part("sphere", {{"radius", 1e-9}}), "/objects/0/parts/0: has a size of");
+    expect_bad_part(part("sphere", {{"radius", 1e9}}), "/objects/0/parts/0: has a size of");
+    expect_bad_part(part("sphere", {{"radius", 1e300}}),
+                    "/objects/0/parts/0/sphere/radius: is too large a number");
+    expect_bad_part(part("box", {{"half_size", {1, 0, 1}}}), "/objects/0/parts/0/box/half_size/1");
+    expect_bad_part(part("box", {{"half_size", {1, 1e300, 1}}}), "/objects/0/parts/0/box/half_size");
+    expect_bad_part(part("torus", {{"tube_radius", 0}}), "/objects/0/parts/0/torus/tube_radius");
+    expect_bad_part(part("capsule", {{"half_height", 1e9}}), "/objects/0/parts/0: has a size of");
+    Json flat = part("sphere", {{"radius", 1}});
+    flat["transform"] = {{"scale", {1, 1e-6, 1}}};
+    expect_bad_part(flat, "/objects/0/parts/0: has a size of");
+    flat["transform"] = {{"scale", {1, 0, 1}}};
+    expect_bad_part(flat, "/objects/0/parts/0/transform/scale/1");
+    flat["transform"] = {{"translation", {1e9, 0, 0}}};
+    expect_bad_part(flat, "/objects/0/parts/0: is too far from the object's origin");
+    flat["transform"] = {{"translation", {1e300, 0, 0}}};
+    expect_bad_part(flat, "/objects/0/parts/0/transform/translation");
+    for (const double smoothness : {-0.1, 1e9, 1e300}) {
+        expect_bad({{"shape", "blend"},
+                    {"parts", {{{"sphere", Json::object()}}}},
+                    {"parameters", {{"smoothness", smoothness}}}},
+                   "/objects/0/parameters/smoothness");
+    }
 }
 
 TEST_F(SceneObjects, orientationsAreAnimatedThroughOppositeKeys) {
