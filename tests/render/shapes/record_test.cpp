@@ -24,7 +24,8 @@ std::shared_ptr<const scene::Voxels> voxel() {
     return std::make_shared<scene::Voxels>(std::move(voxels));
 }
 
-/// A row of things 2 m apart along x, each met by a ray along -z at its centre. Two of each kind.
+/// A row of things 2 m apart along x, each met by a ray along -z through the middle of its bounds. Two of
+/// each kind.
 struct Row {
     scene::SceneBuilder builder;
     std::vector<shared::TestRay> rays;
@@ -86,6 +87,7 @@ struct Row {
                 node.local.rotation = glm::angleAxis(pi / 2, vec3(1, 0, 0));
             }
             node.local.translation = next_place();
+            rays.back().origin += node.local.rotation * bounds_of(shape, shape.values).center();
             node.shape = builder.add(shape);
             builder.add(node);
         }
