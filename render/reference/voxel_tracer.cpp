@@ -1,14 +1,30 @@
 #include "render/reference/voxel_tracer.h"
 
 #include <algorithm>
-
-#include "shaders/shared/voxels.h"
+#include <cmath>
 
 namespace foveray::reference {
 namespace {
 
 /// A voxel that turns away by more than this (cosine) is seen from inside; of less the ray sees the rim.
 constexpr double rim = 0.25;
+
+/// Of a leaf's first word: three bytes, each the square root of a linear component.
+vec3 color_of(std::uint32_t word) {
+    const vec3 root = vec3(word & 255u, word >> 8 & 255u, word >> 16 & 255u) / 255.0f;
+    return root * root;
+}
+
+/// Of a leaf's second word: two halves of 16 bits, an octahedron's coordinates -1 to 1 (Cigolle et al. 2014).
+dvec3 normal_of(std::uint32_t word) {
+    const double u = (word & 0xFFFFu) / 32767.0 - 1.0, v = (word >> 16) / 32767.0 - 1.0;
+    dvec3 normal(u, v, 1.0 - std::abs(u) - std::abs(v));
+    if (normal.z < 0.0) {
+        normal.x = std::copysign(1.0 - std::abs(v), u);
+        normal.y = std::copysign(1.0 - std::abs(u), v);
+    }
+    return glm::normalize(normal);
+}
 
 struct Nearest {
     double distance;
@@ -45,8 +61,8 @@ class Descent {
             if (enters > ray_.nearest) nearest = {enters, node, face};
             return;
         }
-        const std::uint32_t link = voxels_.links[node], mask = link >> shared::VOXEL_LINK_INDEX_BITS;
-        std::uint32_t child = link & (shared::VOXEL_MAX_NODES - 1);
+        const std::uint32_t link = voxels_.links[node], mask = link >> 24;
+        std::uint32_t child = link & 0xFFFFFFu;
         const std::uint32_t half = width / 2;
         for (std::uint32_t i = 0; i < 8; ++i) {
             if ((mask >> i & 1u) == 0) continue;
@@ -71,9 +87,9 @@ std::optional<Crossing> first_voxel(const scene::Voxels& voxels, const Ray& ray)
     const glm::uvec2 node = voxels.nodes[nearest.node];
     Crossing crossing;
     crossing.distance = nearest.distance;
-    crossing.normal = voxels.show_faces ? nearest.face : dvec3(shared::voxel_leaf_normal(node.y));
+    crossing.normal = voxels.show_faces ? nearest.face : normal_of(node.y);
     crossing.inside = glm::dot(crossing.normal, glm::normalize(ray.direction)) > rim;
-    crossing.tint = shared::voxel_color(node.x);
+    crossing.tint = color_of(node.x);
     return crossing;
 }
 
