@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/json.h"
 #include "render/scene/gltf_loader.h"
+#include "render/scene/scene_animation.h"
 #include "render/scene/scene_builder.h"
 #include "render/scene/scene_objects.h"
 #include "render/scene/scene_values.h"
@@ -32,6 +33,8 @@ class SceneFileReader {
     void add_model(const Json& model, const std::string& place);
     void add_light(const Json& light, const std::string& place);
     void add_area_light(const Json& light, vec3 radiance, const std::string& place);
+    /// The node that an animated light hangs from; empty for one that stands still.
+    std::optional<NodeId> mover(const Json& light, const std::string& place);
     void add_camera(const Json& camera);
     void add_real_surface(const Json& surface, const std::string& place);
     void set_environment(const Json& environment);
@@ -104,11 +107,21 @@ void SceneFileReader::add_light(const Json& json, const std::string& place) {
     }
     Node node;
     node.name = light.name;
+    node.parent = mover(json, place);
     node.local.translation = values_.triple(json, "position", place, vec3(0.0f));
     if (json.contains("direction"))
         node.local.rotation = looking_along(values_.unit(json, "direction", place));
     node.light = builder_.add(std::move(light));
     builder_.add(std::move(node));
+}
+
+std::optional<NodeId> SceneFileReader::mover(const Json& light, const std::string& place) {
+    if (!light.contains("animation")) return std::nullopt;
+    Node node;
+    node.name = "mover";
+    const NodeId id = builder_.add(std::move(node));
+    add_animation(builder_, values_, light, place, id, {});
+    return id;
 }
 
 void SceneFileReader::add_area_light(const Json& json, vec3 radiance, const std::string& place) {
@@ -118,6 +131,7 @@ void SceneFileReader::add_area_light(const Json& json, vec3 radiance, const std:
     if (!(glm::length(normal) > 1e-12f)) values_.fault(place, "has no area", "correct half_u and half_v");
     Node node;
     node.name = json.value("name", "area");
+    node.parent = mover(json, place);
     node.matrix = mat4(vec4(u, 0.0f), vec4(-v, 0.0f), vec4(-glm::normalize(normal), 0.0f),
                        vec4(values_.triple(json, "center", place, vec3(0.0f)), 1.0f));
     node.area_light = builder_.add(AreaLight{node.name, vec2(1.0f), radiance});
