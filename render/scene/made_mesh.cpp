@@ -84,6 +84,15 @@ std::vector<MadeMeshKind> make_table() {
          .parameters = {length("radius", 0.3f), length("cell", 0.2f), length("thickness", 0.03f),
                         number("resolution", 64, 8, 256)},
          .make = make_gyroid},
+        {.name = "acuity_patches",
+         .parameters = {length("distance", 2.0f), number("a", 200, 1, 1e4f), number("b", 1, 0.01f, 90),
+                        number("cap_ppd", 60, 0.1f, 1e4f), number("frequency", 0.25f, 0.001f, 100),
+                        number("periods", 10, 0.1f, 1000)},
+         .point_width = 3,
+         .make = make_acuity_patches},
+        {.name = "digits",
+         .parameters = {number("value", 0, 0, 999999), length("height", 0.1f)},
+         .make = make_digits},
     };
     for (MadeMeshKind& kind : kinds) {
         kind.parameters.insert(kind.parameters.end(), common.begin(), common.end());

@@ -28,7 +28,7 @@ std::span<const MadeMeshKind> made_mesh_kinds();
 struct MadeMesh {
     const MadeMeshKind* kind = nullptr;
     std::vector<float> values;     // of the kind's parameters, one after the other
-    std::vector<vec4> points;      // a profile (radius, y) or a path (x, y, z, radius), at least two
+    std::vector<vec4> points;     // a profile (radius, y), a path (x, y, z, radius) or places of patches
     std::vector<BlendPart> parts;  // at least one where the kind has them
 
     float number(std::string_view parameter) const;

@@ -14,5 +14,7 @@ Primitive make_panels(const MadeMesh& mesh);
 Primitive make_tiles(const MadeMesh& mesh);
 Primitive make_blend_surface(const MadeMesh& mesh);
 Primitive make_gyroid(const MadeMesh& mesh);
+Primitive make_acuity_patches(const MadeMesh& mesh);
+Primitive make_digits(const MadeMesh& mesh);
 
 }  // namespace foveray::scene

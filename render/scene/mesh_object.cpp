@@ -60,12 +60,13 @@ class PartReader {
             vec4 p(0.0f);
             for (std::uint32_t k = 0; k < width; ++k) p[static_cast<int>(k)] = list[i][k].get<float>();
             if (!(glm::length(p) < 1e4f)) values_.fault(at, "is too far away", "correct it");
-            const float radius = width == 2 ? p.x : p.w;
+            const float radius = width == 2 ? p.x : width == 4 ? p.w : 0.0f;
             if (radius < 0.0f) values_.fault(at, "has a radius below 0", "correct it");
             result.push_back(p);
             distinct |= p != result.front();
         }
-        if (!distinct) values_.fault(place_ + "/points", "are all the same", "give two different ones");
+        if (!distinct && width != 3)
+            values_.fault(place_ + "/points", "are all the same", "give two different ones");
         return result;
     }
 
@@ -73,6 +74,27 @@ class PartReader {
     const Json& json_;
     const std::string& place_;
 };
+
+/// A texture that goes from black to white and back as a sine of u, once in 0..1; in linear light, whatever
+/// its level of detail: a power of two of texels a period has levels that are its means.
+TextureId add_grating(SceneBuilder& builder) {
+    constexpr std::uint32_t texels = 64;
+    constexpr const char* name = "sine grating";
+    for (TextureId id = 0; id < builder.so_far().textures.size(); ++id) {
+        if (builder.so_far().images[builder.so_far().textures[id].image].name == name) return id;
+    }
+    TextureImage image{.name = name, .pixels = Image(texels, texels, 4)};
+    for (std::uint32_t y = 0; y < texels; ++y) {
+        for (std::uint32_t x = 0; x < texels; ++x) {
+            const float phase = 2.0f * pi * (static_cast<float>(x) + 0.5f) / static_cast<float>(texels);
+            const float shade = 255.0f * srgb_from_linear(0.5f + 0.5f * std::sin(phase)) + 0.5f;
+            std::uint8_t* const texel = &image.pixels.pixels[4 * (y * texels + x)];
+            texel[0] = texel[1] = texel[2] = static_cast<std::uint8_t>(shade);
+            texel[3] = 255;
+        }
+    }
+    return builder.add(Texture{builder.add(std::move(image)), Sampler{}});
+}
 
 void append(Primitive& to, const Primitive& from, const mat4& to_from_part) {
     const auto first = static_cast<std::uint32_t>(to.positions.size());
@@ -100,16 +122,20 @@ Mesh read_mesh_parts(SceneBuilder& builder, const SceneValues& values, const Jso
     Mesh mesh;
     mesh.name = name;
     Json material_of_last;
+    bool grating_in_last = false;
     std::size_t triangles = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::string at = place + "/" + std::to_string(i);
         const Primitive made = make_mesh(PartReader(values, parts[i], at).read());
         if (made.indices.empty()) values.fault(at, "makes no triangles", "correct its parameters");
         const Json material = parts[i].value("material", Json::object());
-        if (i == 0 || material != material_of_last) {
-            mesh.primitives.emplace_back().material = builder.add(read_material(
-                values, material, name + "/" + parts[i]["kind"].get<std::string>(), at + "/material"));
-            material_of_last = material;
+        const bool grating = parts[i].contains("pattern");
+        if (i == 0 || material != material_of_last || grating != grating_in_last) {
+            Material read = read_material(values, material, name + "/" + parts[i]["kind"].get<std::string>(),
+                                          at + "/material");
+            if (grating) read.base_color_texture.texture = add_grating(builder);
+            mesh.primitives.emplace_back().material = builder.add(std::move(read));
+            material_of_last = material, grating_in_last = grating;
         }
         const Json places = parts[i].value("instances", Json::array({Json::object()}));
         const mat4 object_from_part =

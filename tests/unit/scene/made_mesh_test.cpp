@@ -15,6 +15,7 @@ namespace {
 Json part_of(const MadeMeshKind& kind) {
     Json part = {{"kind", std::string(kind.name)}};
     if (kind.point_width == 2) part["points"] = {{0.0, 0.0}, {0.2, 0.0}, {0.3, 0.4}, {0.1, 0.5}};
+    if (kind.point_width == 3) part["points"] = {{0, 0, 0}, {20, 45, 90}};
     if (kind.point_width == 4) part["points"] = {{0, 0, 0, 0.1}, {0, 0.5, 0, 0.2}, {0.3, 0.9, 0.1, 0.1}};
     if (kind.has_parts) {
         part["parts"] = {{{"sphere", {{"radius", 0.3}}}},
@@ -135,6 +136,31 @@ TEST_F(MadeMeshes, veinsColorTheVertices) {
     }
     EXPECT_LT(least, 0.1f);
     EXPECT_GT(most, 0.7f);
+}
+
+TEST_F(MadeMeshes, acuityPatchesHaveTheirFrequencies) {
+    const Scene scene = load_part({{"kind", "acuity_patches"},
+                                   {"pattern", "sine"},
+                                   {"parameters", {{"distance", 3}, {"frequency", 0.5}}},
+                                   {"points", {{0, 0, 0}, {19, 30, 0}, {39, 200, 90}}}});
+    const Primitive& p = scene.meshes.at(0).primitives.at(0);
+    ASSERT_EQ(p.positions.size(), 12u);
+    EXPECT_TRUE(scene.materials[p.material].base_color_texture);
+    const float ppd[] = {60.0f, 10.0f, 5.0f}, eccentricity[] = {0.0f, 19.0f, 39.0f};
+    for (std::size_t patch = 0; patch < 3; ++patch) {
+        const vec3* corner = &p.positions[4 * patch];
+        const vec3 middle = 0.5f * (corner[0] + corner[2]);
+        EXPECT_NEAR(glm::length(middle), 3.0f, 1e-4f);
+        EXPECT_NEAR(degrees(std::acos(-middle.z / 3.0f)), eccentricity[patch], 0.02f);
+        const float cycles = p.uv0[4 * patch + 1].x - p.uv0[4 * patch].x;
+        const float width = 2.0f * degrees(std::atan(0.5f * glm::distance(corner[0], corner[1]) / 3.0f));
+        EXPECT_NEAR(cycles / width, 0.5f * ppd[patch], 0.001f * ppd[patch]);
+        EXPECT_GT(glm::dot(p.normals[4 * patch], -middle), 2.9f) << "faces the seat";
+    }
+    // The third is turned: its stripes run along the radius.
+    const vec3 across = p.positions[9] - p.positions[8], middle = 0.5f * (p.positions[8] + p.positions[10]);
+    EXPECT_NEAR(glm::dot(across, vec3(0, 0, 1)), 0.0f, 1e-4f);
+    EXPECT_NEAR(glm::dot(across, middle), 0.0f, 1e-4f);
 }
 
 TEST_F(MadeMeshes, badOnesAreNamed) {
