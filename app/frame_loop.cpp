@@ -71,9 +71,10 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
 
     const auto& changes = animator_.advance(frame.time);
     const auto scene = gpu_scene_.record(cmd, slot, changes, world_from_stage_);
-    accel_scene_.record(cmd, slot, scene, pipeline_);
-    const auto room = room_.record(cmd, slot, room_moment(frame), settings);
     const auto fovea = foveation_.update(frame, settings);
+    accel_scene_.record(cmd, slot, scene, pipeline_,
+                        {frame, world_from_stage_, fovea, *acuity_, settings, every_pixel_});
+    const auto room = room_.record(cmd, slot, room_moment(frame), settings);
     const auto grid = sampling_.record(
         cmd, slot,
         {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings, every_pixel_});

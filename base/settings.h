@@ -23,6 +23,7 @@ struct Settings {
     float fixed_fovea_degrees = 10.0f;
     std::string resolve_filter = "bicubic";
     int reference_samples = 1;
+    float mesh_error = 0.5f;
 
     // What light does.
     int shadow_samples = 4;

@@ -124,15 +124,19 @@ AccelScene::AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipe
 void AccelScene::fill_table(RayPipeline& pipeline) const { pipeline.tracer().set_table(table_); }
 
 void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuSceneFrame& frame,
-                        RayPipeline& pipeline) {
+                        RayPipeline& pipeline, const MeshDetail& detail) {
     const auto stage = cmd.stage("acceleration");
     update_structures(cmd, frame, pipeline);
 
     instances_.clear();
+    triangle_count_ = 0;
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
         using Flag = vk::GeometryInstanceFlagBitsKHR;
         const GpuInstance& source = frame.instances[i];
-        const Structure& structure = structures_[source.structure];
+        const std::uint32_t index = structure_for(source, detail);
+        const Structure& structure = structures_[index];
+        for (const GpuGeometry& g : scene_.structures()[index].geometries)
+            triangle_count_ += g.triangle_count;
         gpu::TopLevelInstance instance;
         instance.world_from_object = glm::mat4x3(source.world_from_object);
         instance.custom_index = static_cast<std::uint32_t>(i);
@@ -147,6 +151,13 @@ void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuS
     }
     top_level_.build(cmd, slot, instances_);
     pipeline.tracer().prepare(cmd, slot, top_level_);
+}
+
+std::uint32_t AccelScene::structure_for(const GpuInstance& instance, const MeshDetail& detail) const {
+    const GpuStructure& structure = scene_.structures()[instance.structure];
+    if (structure.level_errors.empty()) return instance.structure;
+    const scene::Aabb& bounds = scene_.scene().meshes[structure.source].bounds;
+    return instance.structure + detail.level(structure.level_errors, bounds, instance.world_from_object);
 }
 
 void AccelScene::update_structures(const gpu::Commands& cmd, const GpuSceneFrame& frame,

@@ -6,6 +6,7 @@
 
 #include "render/gpu/acceleration.h"
 #include "render/gpu_scene.h"
+#include "render/mesh_detail.h"
 #include "render/ray_pipeline.h"
 
 namespace foveray::render {
@@ -26,10 +27,13 @@ class AccelScene {
     /// Makes ready another pipeline of the same scene, to take the place of the one that was recorded with.
     void fill_table(RayPipeline& pipeline) const;
 
-    /// Stage "acceleration". Makes the frame's structure and points the pipeline's slot at it: traces may
-    /// follow.
+    /// Stage "acceleration". Makes the frame's structure, of meshes in the levels of detail that suit, and
+    /// points the pipeline's slot at it: traces may follow.
     void record(const gpu::Commands& cmd, std::uint32_t slot, const GpuSceneFrame& frame,
-                RayPipeline& pipeline);
+                RayPipeline& pipeline, const MeshDetail& detail = {});
+
+    /// Triangles of all instances of the last record(), in the levels that were chosen.
+    std::uint64_t triangle_count() const { return triangle_count_; }
 
     /// What the shader table holds, a range a structure, as of the last record().
     const std::vector<RayPipeline::Range>& table() const { return table_; }
@@ -44,6 +48,8 @@ class AccelScene {
         std::uint32_t updates = 0;
     };
 
+    /// The structure that stands for the instance in this frame.
+    std::uint32_t structure_for(const GpuInstance& instance, const MeshDetail& detail) const;
     /// Refits or rebuilds what changed, and its records.
     void update_structures(const gpu::Commands& cmd, const GpuSceneFrame& frame, RayPipeline& pipeline);
 
@@ -52,6 +58,7 @@ class AccelScene {
     std::vector<RayPipeline::Range> table_;
     gpu::TopLevel top_level_;
     std::vector<gpu::TopLevelInstance> instances_;
+    std::uint64_t triangle_count_ = 0;
 };
 
 }  // namespace foveray::render

@@ -18,7 +18,8 @@ std::vector<shared::VertexAttributes> pack_attributes(const scene::Primitive& pr
     return result;
 }
 
-GpuMesh::GpuMesh(gpu::Uploader& uploader, const std::string& name, const scene::Mesh& mesh) {
+GpuMesh::GpuMesh(gpu::Uploader& uploader, const std::string& name, const scene::Mesh& mesh,
+                 std::span<const scene::MeshLevel> levels) {
     std::vector<vec3> positions;
     std::vector<std::uint32_t> indices;
     std::vector<shared::VertexAttributes> attributes;
@@ -36,15 +37,28 @@ GpuMesh::GpuMesh(gpu::Uploader& uploader, const std::string& name, const scene::
         const auto packed = pack_attributes(p);
         attributes.insert(attributes.end(), packed.begin(), packed.end());
     }
+    for (const scene::MeshLevel& level : levels) {
+        levels_.push_back(geometries_);
+        for (std::size_t i = 0; i < level.indices.size(); ++i) {
+            if (level.indices[i].size() == mesh.primitives[i].indices.size()) continue;  // shares level 0's
+            levels_.back()[i].indices = indices.size() * sizeof(std::uint32_t);
+            levels_.back()[i].triangle_count = static_cast<std::uint32_t>(level.indices[i].size() / 3);
+            indices.insert(indices.end(), level.indices[i].begin(), level.indices[i].end());
+        }
+    }
     positions_ = uploader.buffer(name + " positions", gpu::range_bytes(positions), gpu::build_input);
     indices_ = uploader.buffer(name + " indices", gpu::range_bytes(indices), gpu::build_input);
     attributes_ = uploader.buffer(name + " attributes", gpu::range_bytes(attributes));
-    for (GpuGeometry& geometry : geometries_) {
-        geometry.positions += positions_.address();
-        geometry.previous_positions = geometry.positions;
-        geometry.indices += indices_.address();
-        geometry.attributes += attributes_.address();
-    }
+    const auto place = [&](std::vector<GpuGeometry>& geometries) {
+        for (GpuGeometry& geometry : geometries) {
+            geometry.positions += positions_.address();
+            geometry.previous_positions = geometry.positions;
+            geometry.indices += indices_.address();
+            geometry.attributes += attributes_.address();
+        }
+    };
+    place(geometries_);
+    for (std::vector<GpuGeometry>& level : levels_) place(level);
 }
 
 }  // namespace foveray::render

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "render/gpu/acceleration.h"
 #include "render/scene/mesh.h"
+#include "render/scene/mesh_levels.h"
 #include "shaders/shared/scene.h"
 
 namespace foveray::render {
@@ -25,13 +27,17 @@ std::vector<shared::VertexAttributes> pack_attributes(const scene::Primitive& pr
 /// A mesh on the GPU: its primitives one after the other in three buffers.
 class GpuMesh {
   public:
-    GpuMesh(gpu::Uploader& uploader, const std::string& name, const scene::Mesh& mesh);
+    GpuMesh(gpu::Uploader& uploader, const std::string& name, const scene::Mesh& mesh,
+            std::span<const scene::MeshLevel> levels = {});
 
     const std::vector<GpuGeometry>& geometries() const { return geometries_; }
+    /// Of the n-th of the levels given: the same vertices, other triangles.
+    const std::vector<GpuGeometry>& level(std::size_t n) const { return levels_[n]; }
 
   private:
     gpu::Buffer positions_, indices_, attributes_;
     std::vector<GpuGeometry> geometries_;
+    std::vector<std::vector<GpuGeometry>> levels_;
 };
 
 }  // namespace foveray::render

@@ -14,6 +14,15 @@ std::size_t light_count(const scene::Scene& scene) {
     return count;
 }
 
+/// Meshes that are drawn as they are, not deformed.
+std::vector<bool> rigid_meshes(const scene::Scene& scene) {
+    std::vector<bool> rigid(scene.meshes.size());
+    for (const scene::Instance& instance : scene.instances) {
+        if (!instance.deformation) rigid[instance.mesh] = true;
+    }
+    return rigid;
+}
+
 std::vector<bool> used_meshes(const scene::Scene& scene) {
     std::vector<bool> used(scene.meshes.size());
     for (const scene::Instance& instance : scene.instances) used[instance.mesh] = true;
@@ -47,20 +56,32 @@ GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const
 
 void GpuScene::upload_structures(const gpu::Device& device, gpu::TextureTable& textures,
                                  gpu::Uploader& uploader, std::uint32_t slots) {
-    const std::vector<bool> used = used_meshes(scene_);
+    const std::vector<bool> used = used_meshes(scene_), rigid = rigid_meshes(scene_);
+    std::vector<std::vector<scene::MeshLevel>> levels(scene_.meshes.size());
     meshes_.resize(scene_.meshes.size());
     for (scene::MeshId id = 0; id < meshes_.size(); ++id) {
         if (!used[id]) continue;
         const scene::Mesh& mesh = scene_.meshes[id];
-        meshes_[id] =
-            std::make_unique<GpuMesh>(uploader, "mesh " + std::to_string(id) + " " + mesh.name, mesh);
+        if (rigid[id]) levels[id] = scene::make_mesh_levels(mesh);
+        meshes_[id] = std::make_unique<GpuMesh>(uploader, "mesh " + std::to_string(id) + " " + mesh.name,
+                                                mesh, levels[id]);
     }
     const auto add_structure = [&](std::string name, GpuStructure::Kind kind, std::uint32_t source,
                                    const std::vector<GpuGeometry>& geometries) {
-        structures_.push_back({std::move(name), kind, source, geometries});
+        structures_.push_back({std::move(name), kind, source, geometries, {}});
         return static_cast<std::uint32_t>(structures_.size() - 1);
     };
 
+    const auto add_levels = [&](const std::vector<scene::MeshLevel>& coarser, std::uint32_t mesh) {
+        if (coarser.empty()) return;
+        structures_[mesh].level_errors = {0.0f};
+        for (std::size_t i = 0; i < coarser.size(); ++i) {
+            const scene::MeshId id = structures_[mesh].source;
+            structures_[mesh].level_errors.push_back(coarser[i].error);
+            add_structure("mesh " + std::to_string(id) + " level " + std::to_string(i + 1),
+                          GpuStructure::Kind::Mesh, id, meshes_[id]->level(i));
+        }
+    };
     constexpr std::uint32_t none = ~0u;
     std::vector<std::uint32_t> structure_of_mesh(meshes_.size(), none);
     for (const scene::Instance& instance : scene_.instances) {
@@ -68,6 +89,7 @@ void GpuScene::upload_structures(const gpu::Device& device, gpu::TextureTable& t
         if (instance.deformation || shape != none) continue;
         shape = add_structure("mesh " + std::to_string(instance.mesh), GpuStructure::Kind::Mesh,
                               instance.mesh, meshes_[instance.mesh]->geometries());
+        add_levels(levels[instance.mesh], shape);
     }
     first_deformed_ = static_cast<std::uint32_t>(structures_.size());
     std::vector<const GpuMesh*> rest;

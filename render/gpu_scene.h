@@ -24,6 +24,9 @@ struct GpuStructure {
     Kind kind = Kind::Mesh;
     std::uint32_t source = 0;             // id of the mesh, deformation, shape or real surface
     std::vector<GpuGeometry> geometries;  // of triangles; a shape has one box instead
+    /// Errors of a mesh and of its levels of detail, which are the structures after it: object space, metres,
+    /// the first 0. Empty: it has none, or is one.
+    std::vector<float> level_errors;
 };
 
 /// A structure in the world in one frame.
@@ -54,7 +57,8 @@ class GpuScene {
              std::uint32_t slots);
 
     const scene::Scene& scene() const { return scene_; }
-    /// Meshes that are in use, then deformed meshes, shapes, real surfaces.
+    /// Meshes that are in use, their levels of detail after each, then deformed meshes, shapes, real
+    /// surfaces.
     const std::vector<GpuStructure>& structures() const { return structures_; }
     const GpuShapes& shapes() const { return *shapes_; }
     vk::DeviceAddress materials() const { return materials_.address(); }      // shared::Material[]

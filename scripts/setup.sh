@@ -25,6 +25,7 @@ packages=(
     libvulkan-dev libvulkan1 vulkan-validationlayers glslang-tools glslang-dev libvulkan-memory-allocator-dev mesa-vulkan-drivers
     libopenxr-dev libopenxr-loader1
     libglm-dev nlohmann-json3-dev libvalijson-dev libspdlog-dev libcli11-dev libtinygltf-dev libstb-dev libpng-dev
+    libmeshoptimizer-dev
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev libopencv-calib3d-dev
     libglfw3-dev libimgui-dev
     libgtest-dev

@@ -58,7 +58,8 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     counters_.clear(cmd);
     const auto& changes = animator_.advance(shot.time);
     const auto scene = gpu_scene_.record(cmd, slot, changes, {});
-    accel_scene_.record(cmd, slot, scene, pipeline_);
+    accel_scene_.record(cmd, slot, scene, pipeline_,
+                        {frame, {}, fovea, shot.acuity, settings, shot.every_pixel});
     const auto room = room_.record(cmd, slot, {}, settings);
     const auto grid =
         sampling_.record(cmd, slot, {frame, {}, fovea, {}, shot.acuity, settings, shot.every_pixel});

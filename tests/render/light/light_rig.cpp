@@ -85,7 +85,9 @@ Rendered LightRig::render(const Shot& shot) {
         const gpu::Commands cmd = ring_.begin();
         counters_.clear(cmd);
         const GpuSceneFrame scene = gpu_scene_.record(cmd, 0, animator_.advance(shot.time), {});
-        accel_.record(cmd, 0, scene, pipeline_);
+        accel_.record(cmd, 0, scene, pipeline_,
+                      {frame, {}, shot.fovea, shot.acuity, shot.settings, shot.every_pixel});
+        result.triangles = accel_.triangle_count();
         result.grid = sampling_.record(
             cmd, 0, {frame, {}, shot.fovea, shot.hidden, shot.acuity, shot.settings, shot.every_pixel});
         Surfaces hits;

@@ -42,6 +42,7 @@ struct Rendered {
     std::vector<Picture> views;
     std::array<shared::GazeFrame, 2> gaze{};
     RayCounts rays{};
+    std::uint64_t triangles = 0;  // of all instances
 };
 
 /// One frame to render. World and stage are the same.
