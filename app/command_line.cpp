@@ -198,7 +198,8 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     app.require_subcommand(1);
     add_view(app, view);
     add_replay(app, replay);
-    add_bench_options(*app.add_subcommand("bench", "measure the papers' tables on this machine's GPU"), bench);
+    add_bench_options(*app.add_subcommand("bench", "measure the papers' tables on this machine's GPU"),
+                      bench);
     add_import(app, import);
     add_doctor(app, doctor);
     add_settings(app, settings);

@@ -47,14 +47,17 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
       accel_scene_(setup.device, gpu_scene_, pipeline_, setup.frames_in_flight),
       room_(setup.device, textures_, setup.frames_in_flight, setup.calibration, room_proxies(setup.scene),
             room_distance),
+      probes_(setup.device, textures_, setup.scene, pipeline_.tracer(), pipeline_.probes()),
       sampling_(setup.device, setup.frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
       primary_(setup.device, pipeline_.tracer(), pipeline_.primary()),
+      shadows_(setup.device, textures_, pipeline_.tracer(), pipeline_.shadows()),
       lighting_(setup.device, pipeline_.tracer(), pipeline_.lighting()),
+      history_(setup.device, textures_),
       resolve_(setup.device, textures_),
       compositor_(setup.device, textures_),
       submitted_(setup.frames_in_flight) {}
 
-FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> pointer) {
+FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec2> pointer) {
     Frame frame = headset_.begin_frame();
     if (!frame.should_render) {
         headset_.end_frame(frame);
@@ -67,6 +70,7 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t slot = ring_.slot();
     collect_metrics(slot);  // of the slot's earlier frame, which is done
+    const Settings settings = settings_of(frame);
     counters_.clear(cmd);
 
     const auto& changes = animator_.advance(frame.time);
@@ -75,16 +79,24 @@ FrameLoop::Step FrameLoop::step(const Settings& settings, std::optional<vec2> po
     accel_scene_.record(cmd, slot, scene, pipeline_,
                         {frame, world_from_stage_, fovea, *acuity_, settings, every_pixel_});
     const auto room = room_.record(cmd, slot, room_moment(frame), settings);
+    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
     const auto grid = sampling_.record(
         cmd, slot,
         {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings, every_pixel_});
+    render::Surfaces hits;
     render::LightLayers light;
     for (std::uint32_t sub_sample = 0; sub_sample < grid.sub_sample_count; ++sub_sample) {
-        const auto hits = primary_.record(cmd, grid, sub_sample, counters_.address());
-        light = lighting_.accumulate(
-            cmd, {grid, hits.surfaces, scene.scene_data, room.params, counters_.address(), settings},
+        hits = primary_.record(cmd, grid, sub_sample, counters_.address());
+        const auto shadows = shadows_.record(
+            cmd, {grid, hits, scene.scene_data, scene.light_count, counters_.address(), settings},
             sub_sample);
+        light = lighting_.accumulate(cmd,
+                                     {grid, hits.surfaces, shadows, scene.scene_data, room.params,
+                                      counters_.address(), shadows_.noise(), probes.field, settings},
+                                     sub_sample);
     }
+    light = history_.record(cmd,
+                            {grid, hits, light, !scene_.real_surfaces.empty(), frame.display_time, settings});
     const auto images = resolve_.record(cmd, light, grid, frame.views, settings);
     compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
                        passthrough::choose_background(camera_ != nullptr, frame.blend, settings), settings);
@@ -131,7 +143,8 @@ void FrameLoop::collect_metrics(std::uint32_t slot) {
     metrics.cpu_ms = submitted.cpu_ms;
     const render::RayCounts counts = counters_.counts(slot);
     metrics.rays = {counts[shared::COUNT_PRIMARY], counts[shared::COUNT_SHADOW],
-                    counts[shared::COUNT_REFLECTION], counts[shared::COUNT_TRANSPARENT]};
+                    counts[shared::COUNT_REFLECTION], counts[shared::COUNT_TRANSPARENT],
+                    counts[shared::COUNT_PROBE], counts[shared::COUNT_OCCLUSION]};
     for (const gpu::StageTime& time : ring_.stage_times())
         metrics.stages.emplace_back(time.name, time.milliseconds);
     finished_ = std::move(metrics);

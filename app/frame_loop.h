@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,12 +14,15 @@
 #include "render/accel_scene.h"
 #include "render/foveation.h"
 #include "render/gpu_scene.h"
+#include "render/history.h"
 #include "render/lighting.h"
 #include "render/primary.h"
+#include "render/probes.h"
 #include "render/ray_counters.h"
 #include "render/ray_pipeline.h"
 #include "render/resolve.h"
 #include "render/sampling.h"
+#include "render/shadows.h"
 #include "xr/client/headset.h"
 
 namespace foveray::app {
@@ -47,9 +51,14 @@ class FrameLoop {
         bool rendered = false;
         render::ViewImages images;  // good until the next step
     };
-    /// One frame, from the runtime's wait to its end. `pointer` (0..1 over the left eye's context view, from
-    /// the top left) stands in for the gaze where the headset has no eye tracking. Throws Fault.
-    Step step(const Settings& settings, std::optional<vec2> pointer = {});
+    using SettingsOf = std::function<Settings(const Frame&)>;
+    /// One frame, from the runtime's wait to its end. A frame that is rendered gets its settings once it is
+    /// known. `pointer` (0..1 over the left eye's context view, from the top left) stands in for the gaze
+    /// where the headset has no eye tracking. Throws Fault.
+    Step step(const SettingsOf& settings_of, std::optional<vec2> pointer = {});
+    Step step(const Settings& settings) {
+        return step([&](const Frame&) { return settings; });
+    }
 
     /// What the frames could trace with if users' shapes were these. May be called on any thread.
     render::RayPipeline make_pipeline(const render::UserShaders& user_shaders) const;
@@ -84,9 +93,12 @@ class FrameLoop {
     render::AccelScene accel_scene_;
     passthrough::RoomStage room_;
     render::Foveation foveation_;
+    render::ProbeStage probes_;
     render::SamplingStage sampling_;
     render::PrimaryStage primary_;
+    render::ShadowStage shadows_;
     render::LightingStage lighting_;
+    render::HistoryStage history_;
     render::ResolveStage resolve_;
     passthrough::Compositor compositor_;
 

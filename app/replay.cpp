@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/program.h"
 #include "app/progress.h"
+#include "app/quality_control.h"
 #include "base/log.h"
 #include "base/staged_folder.h"
 #include "passthrough/capture/video_writer.h"
@@ -95,7 +96,8 @@ ExitCode run_replay(const ReplayOptions& options) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             continue;
         }
-        const FrameLoop::Step step = loop.step(options.settings);
+        const FrameLoop::Step step = loop.step(
+            [&](const Frame& frame) { return replay_settings(options.settings, session, frame.time); });
         loop.wait();
         done = step.frame.index + 1;
         if (step.rendered && step.frame.index >= range.first) {

@@ -12,6 +12,7 @@ SessionRecorder::SessionRecorder(const std::filesystem::path& folder, Session he
     session_.gaze.clear();
     session_.controllers.clear();
     session_.events.clear();
+    session_.quality.clear();
 }
 
 void SessionRecorder::set_headset(const HeadsetProfile& profile) {
@@ -40,6 +41,15 @@ void SessionRecorder::add(const Frame& frame) {
         const ControllerState& state = frame.controllers[hand];
         if (state.valid) session_.controllers.push_back({frame.time, hand, state});
     }
+}
+
+void SessionRecorder::add(const Session::QualitySample& quality) {
+    if (!session_.quality.empty()) {
+        Session::QualitySample same = session_.quality.back();
+        same.time = quality.time;
+        if (same == quality) return;
+    }
+    session_.quality.push_back(quality);
 }
 
 void SessionRecorder::finish() {

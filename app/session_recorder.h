@@ -20,6 +20,8 @@ class SessionRecorder {
     /// A headset that has no profile of its own: it goes into the folder.
     void set_headset(const HeadsetProfile& profile);
     void add(const Frame& frame);
+    /// What a frame was traced with. Kept where it differs from the frame before.
+    void add(const Session::QualitySample& quality);
     /// Writes the folder; a recording without frames or without a headset leaves nothing.
     void finish();
 

@@ -7,6 +7,7 @@
 #include "app/interrupt.h"
 #include "app/mirror/mirror.h"
 #include "app/program.h"
+#include "app/quality_control.h"
 #include "app/session_recorder.h"
 #include "app/shape_reload.h"
 #include "base/log.h"
@@ -81,8 +82,7 @@ ExitCode run_view(const ViewOptions& options) {
                   settings.far_m);
     FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
                     inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt,
-                    profile ? std::optional(profile->acuity) : std::nullopt, false, 2,
-                    inputs.user_shaders});
+                    profile ? std::optional(profile->acuity) : std::nullopt, false, 2, inputs.user_shaders});
     ShapeReload reload(inputs.scene, inputs.shapes, inputs.user_shaders,
                        [&](const render::UserShaders& shaders) { return loop.make_pipeline(shaders); });
     std::optional<Mirror> mirror;
@@ -91,6 +91,7 @@ ExitCode run_view(const ViewOptions& options) {
 
     catch_interrupts();
     bool exit_requested = false;
+    QualityControl quality;
     const auto show_frames = [&] {
         for (auto state = headset.poll(); state != xr::Headset::State::Ended; state = headset.poll()) {
             if ((interrupted() || (mirror && mirror->wants_close())) && !exit_requested) {
@@ -104,12 +105,19 @@ ExitCode run_view(const ViewOptions& options) {
                 continue;
             }
             if (auto pipeline = reload.take()) loop.use(std::move(*pipeline));
-            const FrameLoop::Step step = loop.step(settings, mirror ? mirror->pointer() : std::nullopt);
+            std::optional<Session::QualitySample> traced_with;
+            const auto settings_of = [&](const Frame& frame) {
+                const Settings used = quality.choose(settings, frame, loop.metrics());
+                traced_with = quality_sample(used, frame.time);
+                return used;
+            };
+            const FrameLoop::Step step = loop.step(settings_of, mirror ? mirror->pointer() : std::nullopt);
             if (mirror && step.rendered) {
                 mirror->show(mirror_pictures(step), loop.metrics().value_or(FrameMetrics{}),
                              headset.instance().has_eye_tracking(), settings);
             }
             if (recorder) record(*recorder, headset, step.frame, profile);
+            if (recorder && traced_with) recorder->add(*traced_with);
         }
     };
     try {

@@ -86,6 +86,28 @@ Session::Event read_event(const CsvTable& t, std::size_t row) {
     return {0, t.text(row, t.column("event")), t.text(row, t.column("value"))};
 }
 
+/// The whole number in `column`, which the setting of that name takes.
+int read_count(const CsvTable& t, std::size_t row, const std::string& column, int least, int most) {
+    const std::int64_t count = t.integer(row, t.column(column));
+    if (count < least || count > most) {
+        throw_bad_input(t.where(row), column + " is " + std::to_string(count),
+                        "use " + std::to_string(least) + " to " + std::to_string(most));
+    }
+    return static_cast<int>(count);
+}
+
+Session::QualitySample read_quality(const CsvTable& t, std::size_t row) {
+    Session::QualitySample sample;
+    sample.resolution_scale = static_cast<float>(t.number(row, t.column("resolution_scale")));
+    if (!(sample.resolution_scale > 0.0f && sample.resolution_scale <= 4.0f))
+        throw_bad_input(t.where(row), "resolution_scale is out of its range", "use above 0, at most 4");
+    sample.shadow_samples = read_count(t, row, "shadow_samples", 1, 256);
+    sample.ambient_occlusion_samples = read_count(t, row, "ambient_occlusion_samples", 0, 64);
+    sample.probe_rays = read_count(t, row, "probe_rays", 16, 256);
+    sample.second_ray_depth = read_count(t, row, "second_ray_depth", 1, 8);
+    return sample;
+}
+
 template <typename Sample>
 auto last_at_or_before(const std::vector<Sample>& samples, Nanoseconds time) {
     auto it = std::upper_bound(samples.begin(), samples.end(), time,
@@ -115,6 +137,7 @@ class CsvWriter {
   private:
     void put(const std::string& s) { out_ << s; }
     void put(Nanoseconds v) { out_ << v; }
+    void put(int v) { out_ << v; }
     void put(bool v) { out_ << (v ? 1 : 0); }
     void put(float v) {
         char text[32];
@@ -155,6 +178,11 @@ ControllerState Session::controller_at(int hand, Nanoseconds time) const {
         if (sample.hand == hand) state = sample.state;
     }
     return state;
+}
+
+std::optional<Session::QualitySample> Session::quality_at(Nanoseconds time) const {
+    const auto it = last_at_or_before(quality, time);
+    return it == quality.end() ? std::nullopt : std::optional(*it);
 }
 
 Session read_session(const fs::path& folder) {
@@ -205,9 +233,11 @@ Session read_session(const fs::path& folder) {
                 session.controllers = read_stream<Session::ControllerSample>(csv, read_controller);
             } else if (stream == "events") {
                 session.events = read_stream<Session::Event>(csv, read_event);
+            } else if (stream == "quality") {
+                session.quality = read_stream<Session::QualitySample>(csv, read_quality);
             } else {
                 throw_bad_input(file.string() + ": /recorded", "names an unknown stream '" + stream + "'",
-                                "use head, gaze, controllers or events");
+                                "use head, gaze, controllers, events or quality");
             }
         }
     } catch (const Json::exception& e) {
@@ -260,6 +290,12 @@ void write_session(const fs::path& folder, const Session& session) {
            });
     stream("events", "time_ns,event,value", session.events,
            [](CsvWriter& csv, const auto& s) { csv.row(s.time, s.name, s.value); });
+    stream("quality",
+           "time_ns,resolution_scale,shadow_samples,ambient_occlusion_samples,probe_rays,second_ray_depth",
+           session.quality, [](CsvWriter& csv, const auto& s) {
+               csv.row(s.time, s.resolution_scale, s.shadow_samples, s.ambient_occlusion_samples,
+                       s.probe_rays, s.second_ray_depth);
+           });
     write_json(folder / "session.json", json);
 }
 

@@ -31,6 +31,15 @@ struct Session {
         std::string value;
     };
 
+    /// What frames from `time` on were traced with: the settings of the same names.
+    struct QualitySample {
+        Nanoseconds time = 0;
+        float resolution_scale = 1.0f;
+        int shadow_samples = 1, ambient_occlusion_samples = 1, probe_rays = 64, second_ray_depth = 1;
+
+        bool operator==(const QualitySample&) const = default;
+    };
+
     std::filesystem::path folder;  // empty for one made in memory
     std::string headset = "ci";  // profile it was recorded with; a .json file's path is absolute once loaded
     double rate_hz = 0.0;        // frames a second of the recording
@@ -42,6 +51,7 @@ struct Session {
     std::vector<GazeSample> gaze;  // in the head's frame
     std::vector<ControllerSample> controllers;
     std::vector<Event> events;
+    std::vector<QualitySample> quality;
 
     Nanoseconds duration() const;
 
@@ -50,6 +60,8 @@ struct Session {
     /// The newest sample at or before `time` (trackers are slower than displays); invalid before the first.
     GazeSample gaze_at(Nanoseconds time) const;
     ControllerState controller_at(int hand, Nanoseconds time) const;
+    /// The newest sample at or before `time`; empty before the first.
+    std::optional<QualitySample> quality_at(Nanoseconds time) const;
 };
 
 /// Throws Fault(BadInput) naming file, line and remedy: missing files, bad numbers, NaN poses, times that go

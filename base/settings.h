@@ -23,15 +23,29 @@ struct Settings {
     float fixed_fovea_degrees = 10.0f;
     std::string resolve_filter = "bicubic";
     int reference_samples = 1;
+    bool history_temporal = true;
+    bool history_spatial = true;
     float mesh_error = 0.5f;
+
+    // How much of it a frame may take (base/quality.h, render/ray_budget.h).
+    std::string quality_level = "automatic";
+    float gpu_share = 0.8f;
+    float least_scale = 0.5f;
 
     // What light does.
     int shadow_samples = 4;
     bool shadows = true;
+    bool adaptive_shadows = true;
     bool reflections = true;
     float reflection_max_roughness = 0.5f;
+    int second_ray_depth = 1;
+    int ambient_occlusion_samples = 1;
+    float ambient_occlusion_m = 0.25f;
     float environment_intensity = 1.0f;
     int max_transparent_layers = 4;
+    bool probes = true;
+    int probe_rays = 64;
+    bool probe_sleeping = true;
 
     // How the picture is made.
     float exposure_ev = 0.0f;

@@ -59,6 +59,10 @@ RayPipeline::Range table_range(const GpuScene& scene, const GpuStructure& struct
     return range;
 }
 
+bool lets_no_light_through(const scene::Material& material) {
+    return material.alpha_mode == scene::AlphaMode::Opaque && material.transmission == 0.0f;
+}
+
 /// What a geometry's material means to rays.
 struct Sides {
     bool double_sided = true;
@@ -68,13 +72,13 @@ struct Sides {
 Sides sides_of(const GpuScene& scene, const GpuStructure& structure, const GpuGeometry& geometry) {
     if (structure.kind == GpuStructure::Kind::RealSurface) return {};
     const scene::Material& material = scene.scene().materials[geometry.material];
-    return {material.double_sided, material.alpha_mode == scene::AlphaMode::Opaque};
+    return {material.double_sided, lets_no_light_through(material)};
 }
 
 gpu::BoxGeometry box_of(const GpuScene& scene, scene::ShapeId id) {
     const scene::Shape& shape = scene.scene().shapes[id];
     const auto is_opaque = [&](scene::MaterialId material) {
-        return scene.scene().materials[material].alpha_mode == scene::AlphaMode::Opaque;
+        return lets_no_light_through(scene.scene().materials[material]);
     };
     bool opaque = is_opaque(shape.material) && !shape.voxels;  // coarse voxels cover their place in part
     for (const scene::CsgLeaf& leaf : shape.solid.leaves) {

@@ -15,10 +15,35 @@ std::uint32_t type_of(scene::LightKind kind) {
     return shared::LIGHT_POINT;
 }
 
+shared::Light packed(const scene::PlacedAreaLight& light) {
+    shared::Light packed{};
+    packed.position = light.center;
+    packed.intensity = light.radiance;
+    packed.half_u = light.half_u;
+    packed.half_v = light.half_v;
+    switch (light.shape) {
+        case scene::AreaLightShape::Rectangle:
+            packed.type = shared::LIGHT_RECTANGLE;
+            packed.direction = glm::normalize(glm::cross(light.half_u, light.half_v));
+            break;
+        case scene::AreaLightShape::Box:
+            packed.type = shared::LIGHT_BOX;
+            packed.range = glm::length(light.half_w);
+            packed.direction = light.half_w / packed.range;
+            break;
+        case scene::AreaLightShape::Sphere:
+            packed.type = shared::LIGHT_SPHERE;
+            packed.range = glm::length(light.half_u);
+            break;
+    }
+    return packed;
+}
+
 }  // namespace
 
 std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes) {
     std::vector<shared::Light> result;
+    for (const scene::PlacedAreaLight& light : changes.area_lights) result.push_back(packed(light));
     for (const scene::PlacedLight& light : changes.lights) {
         shared::Light packed{};
         packed.position = light.position;
@@ -28,16 +53,6 @@ std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes) {
         packed.intensity = light.intensity;
         packed.cos_inner = light.cos_inner_cone;
         packed.cos_outer = light.cos_outer_cone;
-        result.push_back(packed);
-    }
-    for (const scene::PlacedAreaLight& light : changes.area_lights) {
-        shared::Light packed{};
-        packed.position = light.center;
-        packed.type = shared::LIGHT_AREA;
-        packed.direction = glm::normalize(glm::cross(light.half_u, light.half_v));
-        packed.intensity = light.radiance;
-        packed.half_u = light.half_u;
-        packed.half_v = light.half_v;
         result.push_back(packed);
     }
     return result;

@@ -7,7 +7,8 @@
 
 namespace foveray::render {
 
-/// A frame's lights as shaders read them: punctual lights, then area lights, each in the scene's order.
+/// A frame's lights as shaders read them: area lights, whose shadows cost most, then punctual
+/// lights, each in the scene's order.
 std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes);
 
 }  // namespace foveray::render

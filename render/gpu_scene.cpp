@@ -182,6 +182,7 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
     const std::vector<shared::Light> lights = pack_lights(changes);
     shared::SceneData data{};
     data.lights = lights_.address();
+    data.materials = materials_.address();
     data.light_count = static_cast<std::uint32_t>(lights.size());
     data.catcher_count = static_cast<std::uint32_t>(scene_.real_surfaces.size());
     data.environment = environment_.shared();
@@ -193,8 +194,8 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
     scene_data_.record(cmd, slot, gpu::bytes_of(data));
     cmd.barrier(Access::TransferWrite, Access::RayTracingRead);
     cmd.barrier(Access::TransferWrite, Access::ComputeRead);
-    return {scene_data_.address(), instances_, structure_changed_, changes.shapes,
-            static_cast<float>(to_seconds(changes.time))};
+    return {scene_data_.address(), data.light_count, instances_,
+            structure_changed_,    changes.shapes,   static_cast<float>(to_seconds(changes.time))};
 }
 
 }  // namespace foveray::render

@@ -40,7 +40,8 @@ struct GpuInstance {
 
 /// What a frame's shaders and builds find; good until the next record().
 struct GpuSceneFrame {
-    vk::DeviceAddress scene_data = 0;        // shared::SceneData
+    vk::DeviceAddress scene_data = 0;  // shared::SceneData
+    std::uint32_t light_count = 0;
     std::span<const GpuInstance> instances;  // by gl_InstanceCustomIndexEXT: meshes, shapes, real surfaces
     std::span<const std::uint8_t>
         structure_changed;  // by structure: its vertices or box are not those of the frame before

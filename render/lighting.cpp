@@ -12,7 +12,8 @@ std::uint32_t debug_view(const Settings& settings) {
     static const std::map<std::string, std::uint32_t> views = {{"normal", shared::LIGHTING_DEBUG_NORMAL},
                                                                {"albedo", shared::LIGHTING_DEBUG_ALBEDO},
                                                                {"shadow", shared::LIGHTING_DEBUG_SHADOW},
-                                                               {"depth", shared::LIGHTING_DEBUG_DEPTH}};
+                                                               {"depth", shared::LIGHTING_DEBUG_DEPTH},
+                                                               {"probes", shared::LIGHTING_DEBUG_PROBES}};
     const auto it = views.find(settings.debug_view);
     return it == views.end() ? shared::LIGHTING_DEBUG_NONE : it->second;
 }
@@ -33,16 +34,31 @@ LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingIn
         device_.vk().waitIdle();
         samples_ = gpu::Buffer(device_, "light samples", bytes, gpu::Residence::Device);
     }
+    const bool polar = input.grid.kind == shared::GRID_POLAR;
+    const vk::DeviceSize shadowed_bytes =
+        vk::DeviceSize{input.grid.sample_count} * sizeof(shared::ShadowedLight);
+    if (polar && shadowed_.size() < shadowed_bytes) {
+        device_.vk().waitIdle();
+        shadowed_ = gpu::Buffer(device_, "shadowed light", shadowed_bytes, gpu::Residence::Device);
+    }
 
     shared::LightingPush push{};
     push.grid = input.grid.at(sub_sample);
     push.surfaces = input.surfaces;
     push.samples = samples_.address();
+    push.shadowed = polar ? shadowed_.address() : 0;
     push.scene = input.scene;
     push.room = input.room;
     push.counters = input.counters;
+    push.probes = input.probes;
     push.flags = (settings.shadows ? shared::LIGHTING_SHADOWS : 0u) |
                  (settings.reflections ? shared::LIGHTING_REFLECTIONS : 0u);
+    push.noise = input.noise;
+    push.visibility = input.shadows.visibility;
+    push.openness = input.shadows.openness;
+    push.known_lights = input.shadows.light_count;
+    push.sample_count = input.grid.sample_count;
+    push.second_ray_depth = static_cast<std::uint32_t>(settings.second_ray_depth);
     push.shadow_samples = static_cast<std::uint32_t>(settings.shadow_samples);
     push.max_transparent_layers = static_cast<std::uint32_t>(settings.max_transparent_layers);
     push.debug_view = debug_view(settings);
@@ -58,7 +74,7 @@ LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingIn
     }
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
-    return {samples_.address(), &samples_};
+    return {samples_.address(), &samples_, push.shadowed};
 }
 
 }  // namespace foveray::render

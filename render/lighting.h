@@ -4,6 +4,7 @@
 #include "render/engine/scene_types.h"
 #include "render/gpu/commands.h"
 #include "render/sampling.h"
+#include "render/shadows.h"
 #include "shaders/shared/light_layers.h"
 
 namespace foveray::render {
@@ -13,19 +14,28 @@ namespace foveray::render {
 struct LightLayers {
     vk::DeviceAddress samples = 0;        // shared::LightSample, by sample
     const gpu::Buffer* buffer = nullptr;  // holds them, for read-back
+    vk::DeviceAddress shadowed = 0;       // shared::ShadowedLight, by sample; 0: of pixel grids
+    // What the history stage makes of a polar grid's.
+    vk::DeviceAddress packed = 0;  // by layer and sample: shaders/shared/history.h
+    vk::DeviceAddress guides = 0;  // shared::SampleGuide, by sample
+    std::uint32_t packed_layers = 0;
 };
 
 struct LightingInput {
     const SampleGrid& grid;
     vk::DeviceAddress surfaces;  // shared::Surface, by sample
+    const Shadows& shadows;      // on them
     vk::DeviceAddress scene;     // shared::SceneData
     vk::DeviceAddress room;      // shared::RoomParams; 0: no camera
     vk::DeviceAddress counters;  // RayCounters
+    vk::DeviceAddress noise;     // ShadowStage::noise
+    vk::DeviceAddress probes;    // shared::ProbeField; 0: none
     const Settings& settings;
 };
 
-/// Lights what the primary stage found: punctual and area lights with shadows, environment, one mirror
-/// reflection, see-through layers, and for real surfaces the virtual shadows and mirror images on them.
+/// Lights what the primary stage found: punctual and area lights with shadows, environment with ambient
+/// occlusion, reflections and refractions, see-through layers, and for real surfaces the virtual shadows and
+/// mirror images on them.
 class LightingStage {
   public:
     /// `lighting` is the tracer's entry for "render/lighting.rgen".
@@ -40,7 +50,7 @@ class LightingStage {
     const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     engine::RayGeneration lighting_;
-    gpu::Buffer samples_;
+    gpu::Buffer samples_, shadowed_;
 };
 
 }  // namespace foveray::render

@@ -10,14 +10,17 @@ RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const User
     engine::SceneProgram program("scene", RayType{"surface", "render/surface.rmiss"},
                                  RayType{"shadow", "render/shadow.rmiss"});
     const ShapeTypes shapes(program, scene, users);
-    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}};
+    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}, {}, {}};
     d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
         "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
         HitGroup{"", "render/shadow.rahit", ""});
     d.catchers = d.program.add_geometry_type<shared::CatcherRecord>(
         "catchers", HitGroup{"render/catcher.rchit", "", ""}, HitGroup{"", "", ""});
     d.fixation = d.program.add_ray_generation("render/fixation.rgen");
+    d.probes = d.program.add_ray_generation("render/probe_trace.rgen");
     d.primary = d.program.add_ray_generation("render/primary.rgen");
+    d.shadows.shadows = d.program.add_ray_generation("render/shadows.rgen");
+    d.shadows.penumbras = d.program.add_ray_generation("render/penumbras.rgen");
     d.lighting = d.program.add_ray_generation("render/lighting.rgen");
     return d;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/engine/scene_types.h"
+#include "render/shadows.h"
 #include "render/shape_types.h"
 
 namespace foveray::render {
@@ -28,6 +29,8 @@ class RayPipeline {
     /// Ray-generation shaders, by the stage that traces them.
     engine::RayGeneration fixation() const { return declared_.fixation; }
     engine::RayGeneration primary() const { return declared_.primary; }
+    engine::RayGeneration probes() const { return declared_.probes; }
+    ShadowStage::Entries shadows() const { return declared_.shadows; }
     engine::RayGeneration lighting() const { return declared_.lighting; }
 
     engine::SceneRayTracer& tracer() { return tracer_; }
@@ -39,7 +42,9 @@ class RayPipeline {
         ShapeTypes shapes;
         engine::GeometryType<shared::TriangleRecord> triangles;
         engine::GeometryType<shared::CatcherRecord> catchers;
-        engine::RayGeneration fixation, primary, lighting;
+        engine::RayGeneration fixation, probes, primary;
+        ShadowStage::Entries shadows;
+        engine::RayGeneration lighting;
     };
     static Declared declare(const scene::Scene& scene, const UserShaders& users);
 

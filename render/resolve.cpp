@@ -46,6 +46,9 @@ ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& lig
         shared::ResolvePush push{};
         push.grid = grid.at(0);
         push.samples = light.samples;
+        push.packed = light.packed;
+        push.guides = light.guides;
+        push.layers = light.packed_layers;
         push.resolved = buffers.resolved.address();
         push.view = static_cast<std::uint32_t>(i);
         push.filter_kind =

@@ -41,7 +41,15 @@ std::uint32_t flags(const scene::Material& material) {
     if (material.alpha_mode == scene::AlphaMode::Blend) flags |= shared::MATERIAL_ALPHA_BLEND;
     if (material.double_sided) flags |= shared::MATERIAL_DOUBLE_SIDED;
     if (material.unlit) flags |= shared::MATERIAL_UNLIT;
+    if (material.transmission > 0.0f) flags |= shared::MATERIAL_TRANSMISSIVE;
+    if (material.transmission > 0.0f && material.solid) flags |= shared::MATERIAL_SOLID;
     return flags;
+}
+
+/// Per metre: what is left after d metres is exp(-attenuation * d).
+vec3 attenuation(const scene::Material& material) {
+    if (!(material.attenuation_distance > 0.0f)) return vec3(0.0f);
+    return -glm::log(glm::clamp(material.attenuation_color, 1e-6f, 1.0f)) / material.attenuation_distance;
 }
 
 }  // namespace
@@ -67,6 +75,10 @@ SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table
         material.normal_texture = place(m.normal_texture, Content::Data);
         material.occlusion_texture = place(m.occlusion_texture, Content::Data);
         material.emissive_texture = place(m.emissive_texture, Content::Color);
+        material.transmission_texture = place(m.transmission_texture, Content::Data);
+        material.transmission = m.transmission;
+        material.ior = m.ior == 0.0f ? 1e6f : m.ior;  // the extension's 0 stands for infinity
+        material.attenuation = attenuation(m);
         materials_.push_back(material);
     }
 }

@@ -13,10 +13,11 @@ namespace fs = std::filesystem;
 constexpr uvec2 full_hd{1920, 1080};
 constexpr uvec2 polar_size{788, 768};  // an eye: HERR table 1, 1576 x 768 for both
 
-/// One shadow ray a light and hit, one reflection.
+/// One shadow ray a light and hit, one reflection, and nothing more.
 Settings light_settings() {
     Settings settings;
     settings.shadow_samples = 1;
+    settings.ambient_occlusion_samples = 0;
     return settings;
 }
 

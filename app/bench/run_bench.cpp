@@ -1,6 +1,7 @@
 #include "app/bench/run_bench.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
 #include <cmath>
@@ -123,32 +124,38 @@ Json to_json(const Result& r) {
              {{"primary", r.rays[shared::COUNT_PRIMARY]},
               {"shadow", r.rays[shared::COUNT_SHADOW]},
               {"reflection", r.rays[shared::COUNT_REFLECTION]},
-              {"transparent", r.rays[shared::COUNT_TRANSPARENT]}}}};
+              {"transparent", r.rays[shared::COUNT_TRANSPARENT]},
+              {"probe", r.rays[shared::COUNT_PROBE]},
+              {"occlusion", r.rays[shared::COUNT_OCCLUSION]}}}};
 }
 
+/// Stages with a column of their own; the rest is "other".
+constexpr std::array columns = {"probes", "primary", "shadows", "lighting", "history", "resolve"};
+
 void print_header() {
-    std::cout << "| row | GPU ms | 99 % | primary | lighting | resolve | other | Mrays | CPU ms | MB |\n"
-              << "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    std::cout << "| row | GPU ms | 99 % |";
+    for (const char* name : columns) std::cout << ' ' << name << " |";
+    std::cout << " other | Mrays | CPU ms | MB |\n|";
+    for (std::size_t i = 0; i < columns.size() + 7; ++i) std::cout << " --- |";
+    std::cout << '\n';
 }
 
 void print(const Result& r) {
-    double primary = 0.0, lighting = 0.0, resolve = 0.0, other = 0.0;
-    for (const auto& [name, time] : r.stages) {
-        double& sum = name == "primary"    ? primary
-                      : name == "lighting" ? lighting
-                      : name == "resolve"  ? resolve
-                                           : other;
-        sum += time.median;
+    std::cout << fmt::format("| {} | {:.2f} | {:.2f} |", r.name, r.gpu_ms.median, r.gpu_ms.p99);
+    double other = 0.0;
+    for (const auto& [name, time] : r.stages) other += time.median;
+    for (const char* column : columns) {
+        double sum = 0.0;
+        for (const auto& [name, time] : r.stages) sum += name == column ? time.median : 0.0;
+        std::cout << fmt::format(" {:.2f} |", sum);
+        other -= sum;
     }
     std::uint64_t rays = 0;
     for (const std::uint64_t kind : r.rays) rays += kind;
-    std::cout
-        << fmt::format(
-               "| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n",
-               r.name, r.gpu_ms.median, r.gpu_ms.p99, primary, lighting, resolve, other,
-               static_cast<double>(rays) * 1e-6, r.cpu_ms.median,
-               static_cast<double>(r.memory_bytes) / (1 << 20))
-        << std::flush;
+    std::cout << fmt::format(" {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", std::max(other, 0.0),
+                             static_cast<double>(rays) * 1e-6, r.cpu_ms.median,
+                             static_cast<double>(r.memory_bytes) / (1 << 20))
+              << std::flush;
 }
 
 }  // namespace

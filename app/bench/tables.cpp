@@ -4,6 +4,7 @@ namespace foveray::app {
 
 const std::vector<BenchTable>& bench_tables() {
     static const std::vector<BenchTable> tables = {
+        {"herr", "HERR's table 1: light samples and polar sizes, beside full resolution", herr_rows},
         {"procedural", "each procedural shape alone, the paper's scene, voxels beside their triangles",
          procedural_rows},
     };

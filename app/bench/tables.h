@@ -5,6 +5,7 @@
 /// The rows of each table.
 namespace foveray::app {
 
+std::vector<BenchRow> herr_rows();
 std::vector<BenchRow> procedural_rows();
 
 }  // namespace foveray::app

@@ -39,9 +39,12 @@ Offscreen::Offscreen(const gpu::Device& device, const scene::Scene& scene, std::
       gpu_scene_(device, textures_, scene, frames_in_flight),
       accel_scene_(device, gpu_scene_, pipeline_, frames_in_flight),
       room_(device, textures_, frames_in_flight, std::nullopt, {}, room_distance),
+      probes_(device, textures_, scene, pipeline_.tracer(), pipeline_.probes()),
       sampling_(device, frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
       primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
       lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      history_(device, textures_),
       resolve_(device, textures_),
       compositor_(device, textures_),
       pending_cpu_ms_(frames_in_flight) {}
@@ -61,14 +64,23 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     accel_scene_.record(cmd, slot, scene, pipeline_,
                         {frame, {}, fovea, shot.acuity, settings, shot.every_pixel});
     const auto room = room_.record(cmd, slot, {}, settings);
+    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
     const auto grid =
-        sampling_.record(cmd, slot, {frame, {}, fovea, {}, shot.acuity, settings, shot.every_pixel});
+        sampling_.record(cmd, slot, {frame, {}, fovea, shot.hidden, shot.acuity, settings, shot.every_pixel});
+    render::Surfaces hits;
     render::LightLayers light;
     for (std::uint32_t sub_sample = 0; sub_sample < grid.sub_sample_count; ++sub_sample) {
-        const auto hits = primary_.record(cmd, grid, sub_sample, counters_.address());
-        light = lighting_.accumulate(
-            cmd, {grid, hits.surfaces, scene.scene_data, 0, counters_.address(), settings}, sub_sample);
+        hits = primary_.record(cmd, grid, sub_sample, counters_.address());
+        const auto shadows = shadows_.record(
+            cmd, {grid, hits, scene.scene_data, scene.light_count, counters_.address(), settings},
+            sub_sample);
+        light = lighting_.accumulate(cmd,
+                                     {grid, hits.surfaces, shadows, scene.scene_data, 0, counters_.address(),
+                                      shadows_.noise(), probes.field, settings},
+                                     sub_sample);
     }
+    light = history_.record(
+        cmd, {grid, hits, light, !gpu_scene_.scene().real_surfaces.empty(), frame.display_time, settings});
     images_ = resolve_.record(cmd, light, grid, frame.views, settings);
     compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
                        passthrough::Background::Environment, settings);

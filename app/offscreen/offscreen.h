@@ -9,19 +9,23 @@
 #include "base/settings.h"
 #include "passthrough/compositor.h"
 #include "render/accel_scene.h"
+#include "render/history.h"
 #include "render/lighting.h"
 #include "render/primary.h"
+#include "render/probes.h"
 #include "render/ray_counters.h"
 #include "render/ray_pipeline.h"
 #include "render/resolve.h"
 #include "render/sampling.h"
+#include "render/shadows.h"
 
 namespace foveray::app {
 
 /// A frame without a headset. World and stage are the same.
 struct Shot {
     std::vector<View> views;
-    bool every_pixel = true;  // else polar images round `gaze`, an eye each
+    std::vector<HiddenMesh> hidden;  // by view; empty: everything is seen
+    bool every_pixel = true;         // else polar images round `gaze`, an eye each
     Acuity acuity;
     vec3 gaze_origin{0.0f};
     vec3 gaze_direction{0.0f, 0.0f, -1.0f};
@@ -65,9 +69,12 @@ class Offscreen {
     render::GpuScene gpu_scene_;
     render::AccelScene accel_scene_;
     passthrough::RoomStage room_;
+    render::ProbeStage probes_;
     render::SamplingStage sampling_;
     render::PrimaryStage primary_;
+    render::ShadowStage shadows_;
     render::LightingStage lighting_;
+    render::HistoryStage history_;
     render::ResolveStage resolve_;
     passthrough::Compositor compositor_;
     render::ViewImages images_;

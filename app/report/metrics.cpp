@@ -71,15 +71,15 @@ void write_metrics(const std::filesystem::path& file, std::span<const FrameMetri
     const std::vector<std::string> stages = stage_names(frames);
     std::ofstream out(file);
     out << "frame,display_time_ns,gaze_valid,gaze_yaw_degrees,gaze_pitch_degrees,rays_primary,rays_shadow,"
-           "rays_reflection,rays_transparent,polar_width,polar_height,cpu_ms,gpu_ms";
+           "rays_reflection,rays_transparent,rays_probe,rays_occlusion,polar_width,polar_height,cpu_ms,gpu_ms";
     for (const std::string& stage : stages) out << ',' << stage << "_ms";
     out << '\n';
     for (const FrameMetrics& f : frames) {
         out << f.index << ',' << f.display_time << ',' << (f.gaze_valid ? 1 : 0) << ','
             << number_text(f.gaze_yaw_degrees) << ',' << number_text(f.gaze_pitch_degrees) << ','
             << f.rays.primary << ',' << f.rays.shadow << ',' << f.rays.reflection << ',' << f.rays.transparent
-            << ',' << f.polar_size.x << ',' << f.polar_size.y << ',' << number_text(f.cpu_ms) << ','
-            << number_text(f.gpu_ms());
+            << ',' << f.rays.probe << ',' << f.rays.occlusion << ',' << f.polar_size.x << ',' << f.polar_size.y << ','
+            << number_text(f.cpu_ms) << ',' << number_text(f.gpu_ms());
         for (const std::string& stage : stages) out << ',' << number_text(stage_ms(f, stage));
         out << '\n';
     }
@@ -122,6 +122,8 @@ Json summarize(const RunInfo& run, std::span<const FrameMetrics> frames) {
           {"shadow", statistics(frames, [](const FrameMetrics& f) { return f.rays.shadow; })},
           {"reflection", statistics(frames, [](const FrameMetrics& f) { return f.rays.reflection; })},
           {"transparent", statistics(frames, [](const FrameMetrics& f) { return f.rays.transparent; })},
+          {"probe", statistics(frames, [](const FrameMetrics& f) { return f.rays.probe; })},
+          {"occlusion", statistics(frames, [](const FrameMetrics& f) { return f.rays.occlusion; })},
           {"total", statistics(frames, [](const FrameMetrics& f) { return f.rays.total(); })}}},
     };
 }

@@ -61,7 +61,11 @@ Json frame_columns(std::span<const FrameMetrics> frames) {
           {{"name", "reflection"},
            {"count", column(frames, [](const FrameMetrics& f) { return f.rays.reflection; })}},
           {{"name", "transparent"},
-           {"count", column(frames, [](const FrameMetrics& f) { return f.rays.transparent; })}}}},
+           {"count", column(frames, [](const FrameMetrics& f) { return f.rays.transparent; })}},
+          {{"name", "probe"},
+           {"count", column(frames, [](const FrameMetrics& f) { return f.rays.probe; })}},
+          {{"name", "occlusion"},
+           {"count", column(frames, [](const FrameMetrics& f) { return f.rays.occlusion; })}}}},
     };
 }
 

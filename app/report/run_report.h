@@ -19,8 +19,8 @@ namespace foveray::app {
 /// What one frame took. A row of metrics.csv.
 struct FrameMetrics {
     struct Rays {
-        std::uint64_t primary = 0, shadow = 0, reflection = 0, transparent = 0;
-        std::uint64_t total() const { return primary + shadow + reflection + transparent; }
+        std::uint64_t primary = 0, shadow = 0, reflection = 0, transparent = 0, probe = 0, occlusion = 0;
+        std::uint64_t total() const { return primary + shadow + reflection + transparent + probe + occlusion; }
     };
     std::uint64_t index = 0;
     Nanoseconds display_time = 0;

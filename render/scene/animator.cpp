@@ -75,9 +75,11 @@ void place_lights(const Scene& scene, SceneChanges& state) {
         }
         if (node.area_light) {
             const AreaLight& light = scene.area_lights[*node.area_light];
-            state.area_lights.push_back({.center = vec3(world[3]),
+            state.area_lights.push_back({.shape = light.shape,
+                                         .center = vec3(world[3]),
                                          .half_u = light.half_size.x * vec3(world[0]),
                                          .half_v = -light.half_size.y * vec3(world[1]),
+                                         .half_w = -light.half_size.z * vec3(world[2]),
                                          .radiance = light.radiance});
         }
     }

@@ -19,7 +19,9 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::array supported_extensions = {
     std::string_view("KHR_lights_punctual"),   std::string_view("KHR_texture_transform"),
     std::string_view("KHR_materials_unlit"),   std::string_view("KHR_materials_emissive_strength"),
-    std::string_view("KHR_mesh_quantization"), std::string_view("EXT_mesh_gpu_instancing")};
+    std::string_view("KHR_mesh_quantization"), std::string_view("EXT_mesh_gpu_instancing"),
+    std::string_view("KHR_materials_ior"),     std::string_view("KHR_materials_transmission"),
+    std::string_view("KHR_materials_volume")};
 
 std::optional<Bytes> read_bytes(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -17,6 +17,7 @@ class MaterialReader {
     Material read(std::size_t index);
 
   private:
+    void read_optics(const Json& json, const std::string& place, Material& material);
     TextureUse texture_use(const Json& owner, const std::string& key, const std::string& owner_place);
     std::optional<TextureId> texture(std::size_t index);
     ImageId image(std::size_t index);
@@ -73,7 +74,28 @@ Material MaterialReader::read(std::size_t index) {
     m.alpha_cutoff = number_at(document_, json, "alphaCutoff", place, 0.5f);
     m.double_sided = parsed.doubleSided;
     m.unlit = extension_of(json, "KHR_materials_unlit") != nullptr;
+    read_optics(json, place, m);
     return m;
+}
+
+void MaterialReader::read_optics(const Json& json, const std::string& place, Material& m) {
+    const auto at = [&](const std::string& name) { return place + "/extensions/" + name; };
+    const std::string transmission = "KHR_materials_transmission", volume = "KHR_materials_volume",
+                      ior = "KHR_materials_ior";
+    if (const Json* e = extension_of(json, transmission)) {
+        m.transmission = number_at(document_, *e, "transmissionFactor", at(transmission), 0.0f);
+        m.transmission_texture = texture_use(*e, "transmissionTexture", at(transmission));
+    }
+    if (const Json* e = extension_of(json, ior)) {
+        m.ior = number_at(document_, *e, "ior", at(ior), 1.5f);
+        if (m.ior != 0.0f && m.ior < 1.0f) document_.fault(at(ior) + "/ior", "must be 0 or at least 1");
+    }
+    if (const Json* e = extension_of(json, volume)) {
+        m.solid = number_at(document_, *e, "thicknessFactor", at(volume), 0.0f) > 0.0f;
+        const auto color = numbers_at(document_, *e, "attenuationColor", at(volume), {1, 1, 1});
+        m.attenuation_color = {color[0], color[1], color[2]};
+        m.attenuation_distance = number_at(document_, *e, "attenuationDistance", at(volume), 0.0f);
+    }
 }
 
 TextureUse MaterialReader::texture_use(const Json& owner, const std::string& key,

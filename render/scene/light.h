@@ -22,10 +22,17 @@ struct Light {
     float outer_cone = std::numbers::pi_v<float> / 4.0f;
 };
 
-/// A rectangle in its node's xy plane, centred at the origin, that shines to its -z side only.
+enum class AreaLightShape : std::uint8_t {
+    Rectangle,  // in its node's xy plane, shines to its -z side only
+    Box,
+    Sphere,  // of radius half_size.x; a scaled node's x axis counts
+};
+
+/// Light of the same radiance everywhere on it, centred at its node's origin.
 struct AreaLight {
     std::string name;
-    vec2 half_size{0.5f};  // metres along x and y
+    AreaLightShape shape = AreaLightShape::Rectangle;
+    vec3 half_size{0.5f};  // metres along the node's axes
     vec3 radiance{1.0f};
 };
 
@@ -40,11 +47,14 @@ struct PlacedLight {
     float cos_outer_cone = 0.0f;
 };
 
-/// Emits from the side that cross(half_u, half_v) points to.
+/// A rectangle is center + a * half_u + b * half_v, a and b in [-1, 1], and shines to the side that
+/// cross(half_u, half_v) points to; a box has half_w besides; a sphere's radius is half_u's length.
 struct PlacedAreaLight {
+    AreaLightShape shape = AreaLightShape::Rectangle;
     vec3 center{0.0f};
-    vec3 half_u{0.5f, 0.0f, 0.0f};  // the rectangle is center + a * half_u + b * half_v, a and b in [-1, 1]
+    vec3 half_u{0.5f, 0.0f, 0.0f};
     vec3 half_v{0.0f, -0.5f, 0.0f};
+    vec3 half_w{0.0f, 0.0f, -0.5f};
     vec3 radiance{1.0f};
 };
 

@@ -66,11 +66,18 @@ struct Material {
     bool double_sided = false;
     bool unlit = false;  // KHR_materials_unlit: base colour is the radiance
 
+    float transmission = 0.0f;     // KHR_materials_transmission: share of the light that is not reflected
+    float ior = 1.5f;              // KHR_materials_ior
+    bool solid = false;            // KHR_materials_volume with a thickness: the mesh encloses the material
+    vec3 attenuation_color{1.0f};  // of white light after attenuation_distance in it
+    float attenuation_distance = 0.0f;  // metres; 0: it takes nothing away
+
     TextureUse base_color_texture;          // sRGB + alpha
     TextureUse metallic_roughness_texture;  // G roughness, B metallic
     TextureUse normal_texture;              // tangent space
     TextureUse occlusion_texture;           // R
     TextureUse emissive_texture;            // sRGB
+    TextureUse transmission_texture;        // R
 };
 
 }  // namespace foveray::scene

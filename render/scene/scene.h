@@ -8,6 +8,7 @@
 #include "render/scene/material.h"
 #include "render/scene/mesh.h"
 #include "render/scene/node.h"
+#include "render/scene/probe_grid.h"
 #include "render/scene/user_shape.h"
 #include "render/scene/shape.h"
 
@@ -64,6 +65,7 @@ struct Scene {
     std::vector<Camera> cameras;
     Environment environment;
     std::vector<RealSurface> real_surfaces;
+    std::optional<ProbeGrid> probes;
     Pose world_from_stage;
 
     std::vector<Deformation> deformations;       // derived, in node order

@@ -29,6 +29,7 @@ class SceneBuilder {
     void set_skin(NodeId node, SkinId skin);  // skins name nodes, and nodes skins: nodes come first
     void set_local(NodeId node, const Transform& parent_from_node);
     void set(Environment environment);
+    void set(const ProbeGrid& probes) { scene_.probes = probes; }
     void set_world_from_stage(const Pose& pose);
     /// Logs the text and keeps it in Scene::warnings.
     void warn(std::string text);

@@ -11,6 +11,7 @@
 #include "render/scene/scene_animation.h"
 #include "render/scene/scene_builder.h"
 #include "render/scene/scene_objects.h"
+#include "render/scene/scene_probes.h"
 #include "render/scene/scene_values.h"
 
 namespace foveray::scene {
@@ -63,6 +64,7 @@ Scene SceneFileReader::read() {
          [&](const Json& o, const std::string& place) { add_object(builder_, values_, o, place); });
     each("lights", [&](const Json& l, const std::string& place) { add_light(l, place); });
     each("real_surfaces", [&](const Json& s, const std::string& place) { add_real_surface(s, place); });
+    if (json_.contains("probes")) add_probes(builder_, values_, json_["probes"]);
     if (json_.contains("environment")) set_environment(json_["environment"]);
     if (json_.contains("world_from_stage")) {
         builder_.set_world_from_stage(values_.pose(json_["world_from_stage"], "/world_from_stage"));
@@ -125,16 +127,30 @@ std::optional<NodeId> SceneFileReader::mover(const Json& light, const std::strin
 }
 
 void SceneFileReader::add_area_light(const Json& json, vec3 radiance, const std::string& place) {
-    const vec3 u = values_.triple(json, "half_u", place, vec3(0.0f)),
-               v = values_.triple(json, "half_v", place, vec3(0.0f));
-    const vec3 normal = glm::cross(u, v);
-    if (!(glm::length(normal) > 1e-12f)) values_.fault(place, "has no area", "correct half_u and half_v");
+    const std::string shape = json.value("shape", "rectangle");
+    const vec3 center = values_.triple(json, "center", place, vec3(0.0f));
     Node node;
     node.name = json.value("name", "area");
     node.parent = mover(json, place);
-    node.matrix = mat4(vec4(u, 0.0f), vec4(-v, 0.0f), vec4(-glm::normalize(normal), 0.0f),
-                       vec4(values_.triple(json, "center", place, vec3(0.0f)), 1.0f));
-    node.area_light = builder_.add(AreaLight{node.name, vec2(1.0f), radiance});
+    AreaLight light{node.name, AreaLightShape::Rectangle, vec3(1.0f), radiance};
+    if (shape == "rectangle") {
+        const vec3 u = values_.triple(json, "half_u", place, vec3(0.0f)),
+                   v = values_.triple(json, "half_v", place, vec3(0.0f));
+        const vec3 normal = glm::cross(u, v);
+        if (!(glm::length(normal) > 1e-12f)) values_.fault(place, "has no area", "correct half_u and half_v");
+        node.matrix =
+            mat4(vec4(u, 0.0f), vec4(-v, 0.0f), vec4(-glm::normalize(normal), 0.0f), vec4(center, 1.0f));
+    } else if (shape == "box") {
+        light.shape = AreaLightShape::Box;
+        light.half_size = values_.triple(json, "half_size", place, vec3(0.5f));
+        node.local.translation = center;
+        if (json.contains("rotation")) node.local.rotation = values_.rotation(json, "rotation", place);
+    } else {
+        light.shape = AreaLightShape::Sphere;
+        light.half_size = vec3(values_.number(json, "radius", place, 0.1f));
+        node.local.translation = center;
+    }
+    node.area_light = builder_.add(std::move(light));
     builder_.add(std::move(node));
 }
 

@@ -16,6 +16,11 @@ Material read_material(const SceneValues& values, const Json& json, const std::s
     m.emissive = values.triple(json, "emissive", place, m.emissive);
     m.double_sided = json.value("double_sided", true);
     m.unlit = json.value("unlit", false);
+    m.transmission = values.number(json, "transmission", place, m.transmission);
+    m.ior = values.number(json, "ior", place, m.ior);
+    m.solid = !json.value("thin", false);
+    m.attenuation_color = values.triple(json, "attenuation_color", place, m.attenuation_color);
+    m.attenuation_distance = values.number(json, "attenuation_distance", place, m.attenuation_distance);
     return m;
 }
 

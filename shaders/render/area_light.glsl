@@ -1,69 +1,101 @@
-// Rectangles that shine to one side with the same radiance everywhere.
+// Lights with an area, of the same radiance everywhere: rectangles that shine to one side, boxes, spheres. A box is
+// the up to three rectangles of it that a point sees. Everything here is for radiance 1.
 #ifndef FOVERAY_RENDER_AREA_LIGHT_GLSL
 #define FOVERAY_RENDER_AREA_LIGHT_GLSL
 
-#include "shaders/render/brdf.glsl"
+#include "shaders/render/rectangle.glsl"
+#include "shaders/render/sphere_light.glsl"
 #include "shaders/shared/scene.h"
 
-vec3 area_light_point(Light light, vec2 uv) {
-    return light.position + (2.0 * uv.x - 1.0) * light.half_u + (2.0 * uv.y - 1.0) * light.half_v;
+bool is_area_light(Light light) { return light.type >= LIGHT_RECTANGLE; }
+
+// What a surface receives of a light before anything stands in between.
+struct AreaLight {
+    Light light;
+    Rectangle face[3];  // those that face the surface
+    vec3 face_end;      // running sum of the faces' shares of the irradiance: 0 … 1
+    float irradiance;   // 0 … π
+};
+
+SphereLight sphere_of(Light light) { return SphereLight(light.position, light.range); }
+
+Rectangle box_face(Light light, vec3 position, uint axis) {
+    vec3 axes[3] = vec3[3](light.half_u, light.half_v, light.range * light.direction);
+    vec3 out_of_face = axes[axis], u = axes[(axis + 1) % 3], v = axes[(axis + 2) % 3];
+    if (dot(out_of_face, position - light.position) < 0.0) out_of_face = -out_of_face;
+    bool outwards = dot(cross(u, v), out_of_face) > 0.0;
+    return Rectangle(light.position + out_of_face, outwards ? u : v, outwards ? v : u);
 }
 
-// Irradiance that a rectangle of radiance 1 gives an unshadowed point, 0 … π: Lambert's formula for polygons
-// (Baum, Rushmeier and Winget 1989, eq. 6), with the rectangle cut off at the surface's horizon.
-float area_light_irradiance(Light light, vec3 position, vec3 normal) {
-    if (dot(cross(light.half_u, light.half_v), position - light.position) <= 0.0) return 0.0;
-    const vec2 corners[4] = vec2[4](vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1));
-    vec3 polygon[5];
-    uint count = 0;
-    for (uint i = 0; i < 4; ++i) {
-        vec3 a = area_light_point(light, corners[i]) - position;
-        vec3 b = area_light_point(light, corners[(i + 1) % 4]) - position;
-        float height_a = dot(normal, a), height_b = dot(normal, b);
-        if (height_a >= 0.0) polygon[count++] = a;
-        if (height_a * height_b < 0.0) polygon[count++] = a + (b - a) * (height_a / (height_a - height_b));
-    }
-    float sum = 0.0;
-    for (uint i = 0; i < count; ++i) {
-        vec3 a = normalize(polygon[i]), b = normalize(polygon[(i + 1) % count]);
-        vec3 axis = cross(b, a);  // the rectangle is seen from its front: its corners go clockwise
-        float sine = length(axis);
-        if (sine > 0.0) sum += atan(sine, dot(a, b)) * dot(axis, normal) / sine;
-    }
-    return max(0.5 * sum, 0.0);
-}
-
-// Mirror part of what an unshadowed rectangle of radiance 1 sends to the viewer: the point nearest to the mirrored
-// ray stands for the whole. Karis 2013, "Real Shading in Unreal Engine 4", eq. 10-14; a disc of the same area gives the
-// normalisation.
-vec3 area_light_specular(Light light, Brdf brdf, vec3 position, vec3 normal, vec3 view) {
-    vec3 light_normal = cross(light.half_u, light.half_v);
-    vec3 r = reflect(-view, normal);
-    vec3 center = light.position - position;
-    float towards = dot(r, light_normal);
-    vec3 target = center;
-    if (towards < 0.0) {
-        target = r * (dot(center, light_normal) / towards);
+AreaLight area_light_at(Light light, vec3 position, vec3 normal) {
+    AreaLight area;
+    area.light = light;
+    area.face_end = vec3(1.0);
+    area.face[0] = Rectangle(light.position, light.half_u, light.half_v);
+    if (light.type == LIGHT_SPHERE) {
+        area.irradiance = sphere_irradiance(sphere_of(light), position, normal);
+    } else if (light.type == LIGHT_RECTANGLE) {
+        area.irradiance = rectangle_irradiance(area.face[0], position, normal);
     } else {
-        target = r * length(center);  // the mirrored ray leaves the light behind
+        vec3 part;
+        for (uint axis = 0; axis < 3; ++axis) {
+            area.face[axis] = box_face(light, position, axis);
+            part[axis] = rectangle_irradiance(area.face[axis], position, normal);
+        }
+        area.irradiance = part.x + part.y + part.z;
+        area.face_end = vec3(part.x, part.x + part.y, area.irradiance) / max(area.irradiance, 1e-30);
     }
-    vec3 from_center = target - center;
-    vec2 uv = vec2(dot(from_center, light.half_u) / dot(light.half_u, light.half_u),
-                   dot(from_center, light.half_v) / dot(light.half_v, light.half_v));
-    uv = clamp(uv, vec2(-1.0), vec2(1.0));
-    vec3 point = center + uv.x * light.half_u + uv.y * light.half_v;
-    float distance_2 = dot(point, point);
-    vec3 l = point * inversesqrt(distance_2);
-    float n_dot_l = dot(normal, l);
-    float area = 4.0 * length(light_normal);
-    float cos_light = -dot(l, light_normal) * 4.0 / area;
-    if (n_dot_l <= 0.0 || cos_light <= 0.0) return vec3(0.0);
-    vec3 h = normalize(l + view);
-    float n_dot_v = clamp(dot(normal, view), 1e-4, 1.0);
-    float widened = min(brdf.alpha + 0.5 * sqrt(area * cos_light / (PI * distance_2)), 1.0);
-    float ratio = brdf.alpha / widened;
-    vec3 value = brdf_specular(brdf, n_dot_l, n_dot_v, clamp(dot(normal, h), 0.0, 1.0), clamp(dot(view, h), 0.0, 1.0));
-    return value * (ratio * ratio * n_dot_l * cos_light * area / distance_2);
+    return area;
+}
+
+// Point for uv in [0, 1)² and what it counts for, to a factor: even uv are spread evenly over the light.
+vec3 area_light_point(AreaLight area, vec3 position, vec3 normal, vec2 uv, out float weight) {
+    if (area.light.type == LIGHT_SPHERE) {
+        vec3 point = sphere_point(sphere_of(area.light), position, uv);
+        weight = max(dot(normal, normalize(point - position)), 0.0);
+        return point;
+    }
+    if (area.light.type == LIGHT_RECTANGLE) {
+        vec3 point = rectangle_point(area.face[0], uv);
+        weight = rectangle_weight(area.face[0], point, position, normal);
+        return point;
+    }
+    uint i = uv.x < area.face_end.x ? 0 : uv.x < area.face_end.y ? 1 : 2;
+    float start = i == 0 ? 0.0 : area.face_end[i - 1];
+    float share = area.face_end[i] - start;
+    vec3 point = rectangle_point(area.face[i], vec2((uv.x - start) / share, uv.y));
+    weight = rectangle_weight(area.face[i], point, position, normal) / share;
+    return point;
+}
+
+// Points round the light as seen from `position`. What has a straight edge, and hides a part of a rectangle or a box,
+// hides one of them.
+uint area_light_outline_count(Light light) {
+    return light.type == LIGHT_RECTANGLE ? 4 : light.type == LIGHT_BOX ? 8 : 6;
+}
+
+vec3 area_light_outline(Light light, vec3 position, uint i) {
+    if (light.type == LIGHT_SPHERE) {
+        vec3 way = light.position - position;
+        float sine_2 = min(light.range * light.range / dot(way, way), 1.0);
+        vec3 axis = normalize(way);
+        vec3 u = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0, 1, 0)) : cross(axis, vec3(1, 0, 0)));
+        vec3 v = cross(axis, u);
+        float angle = 2.0 * PI * float(i) / 6.0;
+        return light.position - sine_2 * way + light.range * sqrt(1.0 - sine_2) * (cos(angle) * u + sin(angle) * v);
+    }
+    vec3 corner = light.position + ((i & 1) == 0 ? -light.half_u : light.half_u) + ((i & 2) == 0 ? -light.half_v : light.half_v);
+    if (light.type == LIGHT_RECTANGLE) return corner;
+    return corner + ((i & 4) == 0 ? -light.range : light.range) * light.direction;
+}
+
+// Mirror part of what the unshadowed light sends to the viewer.
+vec3 area_light_specular(AreaLight area, Brdf brdf, vec3 position, vec3 normal, vec3 view) {
+    if (area.light.type == LIGHT_SPHERE) return sphere_specular(sphere_of(area.light), brdf, position, normal, view);
+    vec3 sum = vec3(0.0);
+    uint count = area.light.type == LIGHT_BOX ? 3 : 1;
+    for (uint i = 0; i < count; ++i) sum += rectangle_specular(area.face[i], brdf, position, normal, view);
+    return sum;
 }
 
 #endif

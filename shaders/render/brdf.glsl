@@ -54,6 +54,15 @@ vec3 brdf_value(Brdf brdf, vec3 n, vec3 v, vec3 l) {
                                                        clamp(dot(n, h), 0.0, 1.0), v_dot_h);
 }
 
+// Mirror part of a light that is `widening` broader (tangent of half its angle, about) than a point in the direction
+// l: Karis 2013, "Real Shading in Unreal Engine 4", eq. 10 and 14.
+vec3 brdf_specular_widened(Brdf brdf, vec3 n, vec3 v, vec3 l, float widening) {
+    vec3 h = normalize(l + v);
+    float ratio = brdf.alpha / min(brdf.alpha + widening, 1.0);
+    return ratio * ratio * brdf_specular(brdf, dot(n, l), clamp(dot(n, v), 1e-4, 1.0), clamp(dot(n, h), 0.0, 1.0),
+                                         clamp(dot(v, h), 0.0, 1.0));
+}
+
 // Part of light from everywhere that the mirror part reflects: Karis 2014, "Physically Based Shading on Mobile", a
 // fit to the split sum's second half (Karis 2013, eq. 8).
 vec3 specular_albedo(Brdf brdf, float roughness, float n_dot_v) {

@@ -22,7 +22,7 @@ void main() {
                  object[2] * barycentrics.y;
 
     surface.kind = SURFACE_REAL;
-    surface.flags = gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? SURFACE_FLAG_BACK_FACE : 0;
+    surface.flags = gl_HitKindEXT == gl_HitKindBackFacingTriangleEXT ? SURFACE_FLAG_BACK_FACE | SURFACE_FLAG_INSIDE : 0;
     surface.position = gl_ObjectToWorldEXT * vec4(point, 1.0);
     surface.previous_position = InstanceArray(record.instances).at[gl_InstanceCustomIndexEXT]
                                     .previous_world_from_object * vec4(point, 1.0);

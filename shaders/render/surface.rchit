@@ -81,7 +81,15 @@ void main() {
 
     surface.kind = SURFACE_VIRTUAL;
     surface.flags = ((material.flags & MATERIAL_UNLIT) != 0 ? SURFACE_FLAG_UNLIT : 0) |
-                    (back ? SURFACE_FLAG_BACK_FACE : 0);
+                    (back ? SURFACE_FLAG_BACK_FACE : 0) |
+                    (back && (material.flags & MATERIAL_DOUBLE_SIDED) == 0 ? SURFACE_FLAG_INSIDE : 0);
+    if ((material.flags & MATERIAL_TRANSMISSIVE) != 0) {
+        float transmission = material.transmission;
+        if (material.transmission_texture.texture != NO_TEXTURE) {
+            transmission *= sample_texture(material.transmission_texture, p).r;
+        }
+        surface.flags |= transmission_flags(transmission);
+    }
     surface.distance = gl_HitTEXT;
     surface.footprint = footprint;
     surface.material = record.material;

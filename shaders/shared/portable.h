@@ -23,6 +23,7 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
 using uint64_t = std::uint64_t;
 using mat4x3 = glm::mat4x3;  // four columns of three: a 3x4 affine transform
@@ -30,6 +31,7 @@ using glm::clamp;
 using glm::exp2;
 using glm::floatBitsToUint;
 using glm::log2;
+using glm::sqrt;
 using glm::max;
 using glm::uintBitsToFloat;
 }  // namespace foveray::shared

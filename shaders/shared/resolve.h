@@ -15,17 +15,20 @@ FOVERAY_CONST uint RESOLVE_DEBUG_SAMPLES = 2u;  // each sample's cell, every oth
 
 struct ResolvePush {
     uint64_t grid;      // SampleGrid
-    uint64_t samples;   // LightSample[]
+    uint64_t samples;   // LightSample[], of pixel grids
+    uint64_t packed;    // light of polar grids: history.h
+    uint64_t guides;    // SampleGuide[], of polar grids
     uint64_t resolved;  // ResolvedPixel[height][width], written
     uint view;
     uint filter_kind;
     uint debug_view;
+    uint layers;  // of `packed`
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::ResolvePush) == 40);
+static_assert(sizeof(foveray::shared::ResolvePush) == 56);
 #endif
 
 #endif

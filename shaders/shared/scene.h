@@ -21,6 +21,8 @@ FOVERAY_CONST uint MATERIAL_ALPHA_MASK = 1u;
 FOVERAY_CONST uint MATERIAL_ALPHA_BLEND = 2u;
 FOVERAY_CONST uint MATERIAL_DOUBLE_SIDED = 4u;
 FOVERAY_CONST uint MATERIAL_UNLIT = 8u;
+FOVERAY_CONST uint MATERIAL_TRANSMISSIVE = 16u;
+FOVERAY_CONST uint MATERIAL_SOLID = 32u;  // transmissive, and its surface encloses it; otherwise it is a thin sheet
 
 // glTF 2.0 metallic-roughness.
 struct Material {
@@ -37,6 +39,10 @@ struct Material {
     TextureUse normal_texture;
     TextureUse occlusion_texture;
     TextureUse emissive_texture;
+    float transmission;
+    float ior;
+    vec3 attenuation;  // per metre inside of a solid: exp(-attenuation * metres) is left
+    TextureUse transmission_texture;
 };
 
 // Positions lie apart (tightly packed vec3), because acceleration structures read them.
@@ -80,14 +86,17 @@ struct InstanceData {
 FOVERAY_CONST uint LIGHT_POINT = 0u;
 FOVERAY_CONST uint LIGHT_SPOT = 1u;
 FOVERAY_CONST uint LIGHT_DIRECTIONAL = 2u;
-FOVERAY_CONST uint LIGHT_AREA = 3u;  // a rectangle that shines to the side of its normal, cross(half_u, half_v)
+// Lights with an area; the others come before them.
+FOVERAY_CONST uint LIGHT_RECTANGLE = 3u;  // shines to the side of its normal, cross(half_u, half_v)
+FOVERAY_CONST uint LIGHT_BOX = 4u;        // half axes half_u, half_v and range * direction
+FOVERAY_CONST uint LIGHT_SPHERE = 5u;     // of radius `range`
 
 struct Light {
     vec3 position;  // world; centre of an area light
     uint type;
-    vec3 direction;  // in which it shines, unit length
-    float range;     // 0: unlimited (KHR_lights_punctual)
-    vec3 intensity;  // W/sr (point, spot), W/m² (directional), radiance W/(m² sr) (area)
+    vec3 direction;  // in which it shines, unit length; a box's third axis
+    float range;     // 0: unlimited (KHR_lights_punctual); see LIGHT_BOX, LIGHT_SPHERE
+    vec3 intensity;  // W/sr (point, spot), W/m² (directional), radiance W/(m² sr) (areas)
     float cos_inner;
     vec3 half_u;
     float cos_outer;
@@ -107,7 +116,8 @@ struct Environment {
 };
 
 struct SceneData {
-    uint64_t lights;  // Light[]
+    uint64_t lights;     // Light[]
+    uint64_t materials;  // Material[]
     uint light_count;
     uint catcher_count;
     Environment environment;
@@ -118,14 +128,14 @@ FOVERAY_SHARED_END
 #ifdef __cplusplus
 namespace foveray::shared {
 static_assert(sizeof(TextureUse) == 32 && offsetof(TextureUse, offset) == 24);
-static_assert(sizeof(Material) == 212 && offsetof(Material, emissive_texture) == 180);
+static_assert(sizeof(Material) == 264 && offsetof(Material, transmission_texture) == 232);
 static_assert(sizeof(VertexAttributes) == 52 && offsetof(VertexAttributes, color) == 44);
 static_assert(sizeof(TriangleRecord) == 56 && offsetof(TriangleRecord, pad) == 52);
 static_assert(sizeof(CatcherRecord) == 48 && offsetof(CatcherRecord, surface) == 44);
 static_assert(sizeof(InstanceData) == 52 && offsetof(InstanceData, node) == 48);
 static_assert(sizeof(Light) == 80 && offsetof(Light, pad) == 76);
 static_assert(sizeof(Environment) == 168 && offsetof(Environment, irradiance_sh) == 60);
-static_assert(sizeof(SceneData) == 184 && offsetof(SceneData, environment) == 16);
+static_assert(sizeof(SceneData) == 192 && offsetof(SceneData, environment) == 24);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(MaterialArray, Material);

@@ -13,6 +13,8 @@ FOVERAY_CONST uint SURFACE_CULLED = 3u;   // not traced: no view shows it
 
 FOVERAY_CONST uint SURFACE_FLAG_UNLIT = 1u;
 FOVERAY_CONST uint SURFACE_FLAG_BACK_FACE = 2u;
+FOVERAY_CONST uint SURFACE_FLAG_TRANSMISSIVE = 4u;  // flags' highest eight bits: the share of 255 that passes
+FOVERAY_CONST uint SURFACE_FLAG_INSIDE = 8u;  // the ray comes from within something solid
 
 struct Surface {
     vec3 position;  // world
@@ -43,6 +45,11 @@ static_assert(sizeof(Surface) == 120 && offsetof(Surface, thickness) == 116);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(SurfaceArray, Surface);
+
+uint transmission_flags(float transmission) {
+    uint share = uint(clamp(transmission, 0.0, 1.0) * 255.0 + 0.5);
+    return share == 0 ? 0 : SURFACE_FLAG_TRANSMISSIVE | share << 24;
+}
 #endif
 
 #endif

@@ -25,6 +25,7 @@ struct Golden {
     const char* scene;
     double seconds;
     bool polar;
+    int frames = 1;  // drawn, a tenth of a second apart: probes gather light over time
 };
 
 std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.scene; }
@@ -42,6 +43,7 @@ Shot shot_of(const Golden& golden, const scene::Scene& scene) {
     shot.gaze_origin = shot.views[0].stage_from_eye.position;
     shot.gaze_direction = transform_direction(shot.views[0].stage_from_eye, vec3(0, 0, -1));
     shot.settings.shadow_samples = 16;
+    shot.settings.ambient_occlusion_samples = 32;
     shot.settings.reference_samples = 4;
     return shot;
 }
@@ -80,7 +82,13 @@ TEST_P(GoldenTest, LooksAsItDid) {
     render::UserShaders user_shaders;
     for (const scene::UserShape& user : scene.user_shapes) user_shaders.push_back(user_shapes::compile(user));
     Offscreen offscreen(device(), scene, 1, user_shaders);
-    offscreen.draw(shot_of(golden, scene));
+    Shot shot = shot_of(golden, scene), small = shot;
+    small.views[0].size = uvec2(1);
+    for (int i = golden.frames - 1; i > 0; --i) {
+        small.time = shot.time - Nanoseconds{i} * 100'000'000;
+        offscreen.draw(small);
+    }
+    offscreen.draw(shot);
     const Image picture = offscreen.picture(0);
 
     const fs::path file = fs::path(GOLDEN_PICTURES) / (name_of(golden) + ".png");
@@ -101,14 +109,12 @@ TEST_P(GoldenTest, LooksAsItDid) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, GoldenTest,
-                         testing::Values(Golden{"proceduray.json", 0.0, false},
-                                         Golden{"proceduray.json", 1.5, true},
-                                         Golden{"shapes.json", 0.0, false}, Golden{"mixed.json", 0.5, false},
-                                         Golden{"mixed.json", 0.5, true}),
-                         [](const auto& golden) {
-                             return name_of(golden.param) + "_" + std::to_string(golden.index);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, GoldenTest,
+    testing::Values(Golden{"proceduray.json", 0.0, false}, Golden{"proceduray.json", 1.5, true},
+                    Golden{"shapes.json", 0.0, false}, Golden{"mixed.json", 0.5, false},
+                    Golden{"mixed.json", 0.5, true}, Golden{"cornell.json", 6.0, false, 60}),
+    [](const auto& golden) { return name_of(golden.param) + "_" + std::to_string(golden.index); });
 
 }  // namespace
 }  // namespace foveray::app

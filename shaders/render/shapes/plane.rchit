@@ -29,6 +29,8 @@ vec2 cone_on_plane(vec3 normal) {
 
 void main() {
     fill_surface(record.shape, vec3(0.0, 1.0, 0.0), record.shape.material, vec4(1.0), 0.0);
+    // Nothing is within a plane, unless it is the skin of something.
+    if ((record.shape.flags & SHAPE_SINGLE_SIDED) == 0) surface.flags &= ~SURFACE_FLAG_INSIDE;
     if (record.checker_size <= 0.0) return;
     // Narrower than this the difference of the integrals drowns in rounding.
     vec2 width = max(cone_on_plane(surface.geometric_normal) / record.checker_size, 2e-3);

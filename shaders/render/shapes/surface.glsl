@@ -36,7 +36,7 @@ void fill_surface(ShapeHeader shape, vec3 outward, uint material_id, vec4 color,
 
     surface.kind = SURFACE_VIRTUAL;
     surface.flags = ((material.flags & MATERIAL_UNLIT) != 0 ? SURFACE_FLAG_UNLIT : 0) |
-                    (inside ? SURFACE_FLAG_BACK_FACE : 0);
+                    (inside ? SURFACE_FLAG_BACK_FACE | SURFACE_FLAG_INSIDE : 0) | transmission_flags(material.transmission);
     surface.distance = gl_HitTEXT;
     surface.footprint = hit_footprint();
     vec4 base = material.base_color * color;

@@ -58,7 +58,7 @@ TEST_F(CatcherTest, realSurfacesAreFoundFromBothSidesWithTheirOwnValues) {
     EXPECT_EQ(above.alpha, 1.0f);
     const auto& below = found[9 + 4];
     EXPECT_EQ(below.kind, shared::SURFACE_REAL);
-    EXPECT_EQ(below.flags, shared::SURFACE_FLAG_BACK_FACE);
+    EXPECT_EQ(below.flags, shared::SURFACE_FLAG_BACK_FACE | shared::SURFACE_FLAG_INSIDE);
     expect_near(below.normal, {0, -1, 0}, 1e-5f, "normal from below");
     const auto& level = found[18 + 4];
     EXPECT_EQ(level.material, 0u);

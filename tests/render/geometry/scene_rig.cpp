@@ -23,6 +23,7 @@ SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
       gpu_scene_(device, textures_, scene, slots),
       accel_(device, gpu_scene_, pipeline_, slots),
       primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
       lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
       resolve_(device, textures_),
       counters_(device, slots) {}
@@ -72,8 +73,12 @@ std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Se
     const GpuSceneFrame frame = gpu_scene_.record(cmd, ring_.slot(), *changes_, {});
     accel_.record(cmd, ring_.slot(), frame, pipeline_);
     const Surfaces hits = primary_.record(cmd, grid, 0, counters_.address());
-    const LightLayers light = lighting_.accumulate(
-        cmd, {grid, hits.surfaces, frame.scene_data, 0, counters_.address(), settings}, 0);
+    const Shadows shadows = shadows_.record(
+        cmd, {grid, hits, frame.scene_data, frame.light_count, counters_.address(), settings}, 0);
+    const LightLayers light = lighting_.accumulate(cmd,
+                                                   {grid, hits.surfaces, shadows, frame.scene_data, 0,
+                                                    counters_.address(), shadows_.noise(), 0, settings},
+                                                   0);
     const ViewImages images = resolve_.record(cmd, light, grid, {&view, 1}, settings);
     cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
     cmd->copyBuffer(images.buffers[0].resolved->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));

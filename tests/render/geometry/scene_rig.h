@@ -52,6 +52,7 @@ class SceneRig {
     GpuScene gpu_scene_;
     AccelScene accel_;
     PrimaryStage primary_;
+    ShadowStage shadows_;
     LightingStage lighting_;
     ResolveStage resolve_;
     RayCounters counters_;

@@ -33,9 +33,12 @@ LightRig::LightRig(const gpu::Device& device, const scene::Scene& scene)
       animator_(scene),
       gpu_scene_(device, textures_, scene, 1),
       accel_(device, gpu_scene_, pipeline_, 1),
+      probes_(device, textures_, scene, pipeline_.tracer(), pipeline_.probes()),
       sampling_(device, 1, pipeline_.tracer(), pipeline_.fixation()),
       primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
       lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      history_(device, textures_),
       resolve_(device, textures_),
       counters_(device, 1) {}
 
@@ -81,26 +84,40 @@ Rendered LightRig::render(const Shot& shot) {
     frame.views = shot.views;
     Rendered result;
     ViewImages images;
+    Settings settings = shot.settings;
+    settings.history_temporal = settings.history_temporal && shot.history;
+    const bool real = shot.paint || !gpu_scene_.scene().real_surfaces.empty();
+    Surfaces hits;
     {
         const gpu::Commands cmd = ring_.begin();
         counters_.clear(cmd);
-        const GpuSceneFrame scene = gpu_scene_.record(cmd, 0, animator_.advance(shot.time), {});
+        const scene::SceneChanges& changes = animator_.advance(shot.time);
+        const GpuSceneFrame scene = gpu_scene_.record(cmd, 0, changes, {});
         accel_.record(cmd, 0, scene, pipeline_,
                       {frame, {}, shot.fovea, shot.acuity, shot.settings, shot.every_pixel});
         result.triangles = accel_.triangle_count();
+        const ProbeField probes =
+            probes_.record(cmd, {changes, scene.scene_data, counters_.address(), shot.settings});
         result.grid = sampling_.record(
             cmd, 0, {frame, {}, shot.fovea, shot.hidden, shot.acuity, shot.settings, shot.every_pixel});
-        Surfaces hits;
         LightLayers light;
         for (std::uint32_t s = 0; s < result.grid.sub_sample_count; ++s) {
             hits = primary_.record(cmd, result.grid, s, counters_.address());
-            light = lighting_.accumulate(
+            const Shadows shadows = shadows_.record(
                 cmd,
-                {result.grid, hits.surfaces, scene.scene_data, shot.room, counters_.address(), shot.settings},
+                {result.grid, hits, scene.scene_data, scene.light_count, counters_.address(), shot.settings},
                 s);
+            light = lighting_.accumulate(cmd,
+                                         {result.grid, hits.surfaces, shadows, scene.scene_data, shot.room,
+                                          counters_.address(), shadows_.noise(), probes.field, shot.settings},
+                                         s);
         }
         counters_.read_back(cmd, 0);
-        if (!shot.paint) images = resolve_.record(cmd, light, result.grid, shot.views, shot.settings);
+        if (!shot.paint) {
+            const LightLayers settled =
+                history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
+            images = resolve_.record(cmd, settled, result.grid, shot.views, shot.settings);
+        }
         ring_.submit();
         ring_.wait();
         result.gaze = sampling_.gaze_frames(0);
@@ -114,7 +131,9 @@ Rendered LightRig::render(const Shot& shot) {
     if (shot.paint) {
         const LightLayers light = paint(shot, result);
         const gpu::Commands cmd = ring_.begin();
-        images = resolve_.record(cmd, light, result.grid, shot.views, shot.settings);
+        const LightLayers settled =
+            history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
+        images = resolve_.record(cmd, settled, result.grid, shot.views, shot.settings);
         ring_.submit();
         ring_.wait();
     }

@@ -8,11 +8,14 @@
 #include "base/headset_profile.h"
 #include "base/settings.h"
 #include "render/accel_scene.h"
+#include "render/history.h"
 #include "render/lighting.h"
 #include "render/primary.h"
+#include "render/probes.h"
 #include "render/ray_counters.h"
 #include "render/resolve.h"
 #include "render/sampling.h"
+#include "render/shadows.h"
 #include "shaders/shared/surface.h"
 
 namespace foveray::render {
@@ -55,6 +58,7 @@ struct Shot {
     std::vector<HiddenMesh> hidden;
     Nanoseconds time = 0;
     vk::DeviceAddress room = 0;
+    bool history = false;      // true: shots are frames of a sequence; false: each stands alone
     bool read_samples = true;  // false: surfaces and light stay empty
     /// Takes the place of the lit samples; radiance by direction from the eye, for polar grids.
     std::function<shared::LightSample(vec3 direction, float distance)> paint;
@@ -67,6 +71,7 @@ class LightRig {
 
     Rendered render(const Shot& shot);
     gpu::TextureTable& textures() { return textures_; }
+    const ProbeStage& probes() const { return probes_; }
 
   private:
     std::vector<std::byte> read(const gpu::Buffer& source, vk::DeviceSize size);
@@ -79,9 +84,12 @@ class LightRig {
     scene::SceneAnimator animator_;
     GpuScene gpu_scene_;
     AccelScene accel_;
+    ProbeStage probes_;
     SamplingStage sampling_;
     PrimaryStage primary_;
+    ShadowStage shadows_;
     LightingStage lighting_;
+    HistoryStage history_;
     ResolveStage resolve_;
     RayCounters counters_;
     gpu::Buffer painted_;

@@ -111,7 +111,9 @@ TEST_F(LightingTest, AreaLightGivesTheIrradianceOfARectangle) {
         for (const float albedo : {1.0f, 0.0f}) {
             TestScene world;
             world.add(scene::make_rectangle(vec2(3.0f)), matte(vec3(albedo)));
-            world.add(scene::AreaLight{"lamp", half, vec3(4.0f)}, pose);
+            world.add(
+                scene::AreaLight{"lamp", scene::AreaLightShape::Rectangle, vec3(half, 0.0f), vec3(4.0f)},
+                pose);
             const scene::Scene scene = world.build();
             rendered.push_back(LightRig(device(), scene).render(shot));
         }
@@ -169,7 +171,7 @@ TEST_F(LightingTest, AreaLightCastsASoftShadow) {
     const float edge = 0.05f, edge_height = 0.8f, lamp_height = 1.6f, half = 0.2f;
     world.add(scene::make_box({1.0f, 0.001f, 1.0f}), matte(vec3(0.5f)),
               {.position = {edge + 1.0f, edge_height, 0.0f}});
-    world.add(scene::AreaLight{"lamp", vec2(half), vec3(4.0f)},
+    world.add(scene::AreaLight{"lamp", scene::AreaLightShape::Rectangle, vec3(half), vec3(4.0f)},
               look_at({0.0f, lamp_height, 0.0f}, vec3(0.0f)));
     const scene::Scene scene = world.build();
     LightRig rig(device(), scene);

@@ -168,7 +168,7 @@ scene::Scene still_life() {
     world.add(scene::make_box(vec3(0.2f)), matte({0.8f, 0.2f, 0.2f}), {.position = {0.7f, -0.2f, -1.8f}});
     world.add(scene::make_box({0.2f, 0.3f, 0.01f}), unlit({0.1f, 0.3f, 0.9f}, 0.5f),
               {.position = {-0.5f, -0.1f, -1.0f}});
-    world.add(scene::AreaLight{"lamp", vec2(0.3f), vec3(12.0f)},
+    world.add(scene::AreaLight{"lamp", scene::AreaLightShape::Rectangle, vec3(0.3f), vec3(12.0f)},
               look_at({0.7f, 1.5f, -1.0f}, {0.0f, 0.0f, -1.5f}));
     world.add_real(scene::make_rectangle(vec2(3.0f)), vec3(0.5f), 0.1f, 0.1f,
                    {.position = {0.0f, -0.4f, 0.0f}});

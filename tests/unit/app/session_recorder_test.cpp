@@ -39,6 +39,21 @@ TEST(SessionRecorder, KeepsTimeWhenFramesAreSkippedAndGazeInTheHeadsFrame) {
     EXPECT_LT(glm::length(session.gaze[1].origin), 1e-5f);
 }
 
+TEST(SessionRecorder, KeepsQualityWhereItChanges) {
+    const fakes::TemporaryFolder folder;
+    SessionRecorder recorder(folder.path() / "session", Session{});
+    const Session::QualitySample first{0, 1.0f, 4, 1, 64, 1}, second{30, 0.5f, 4, 1, 64, 1};
+    recorder.add(frame_at(0, 0));
+    for (const Nanoseconds time : {0, 10, 20}) {
+        Session::QualitySample sample = first;
+        sample.time = time;
+        recorder.add(sample);
+    }
+    recorder.add(second);
+    recorder.finish();
+    EXPECT_EQ(read_session(folder.path() / "session").quality, (std::vector{first, second}));
+}
+
 TEST(SessionRecorder, NeverReplacesARecording) {
     const fakes::TemporaryFolder folder;
     folder.write("session/session.json", "{}");

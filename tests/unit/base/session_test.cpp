@@ -29,6 +29,7 @@ Session some_session() {
         {50, 1, {true, {quat(1, 0, 0, 0), {0.3f, 1, -0.2f}}, {}, 0.5f, 1.0f, {0.1f, -1}, true, false}}};
     s.controllers.front().state.stage_from_aim = s.controllers.front().state.stage_from_grip;
     s.events = {{700, "focus_lost", ""}, {900, "exit", "now"}};
+    s.quality = {{0, 1.0f, 16, 1, 64, 1}, {500, 0.8125f, 1, 2, 128, 3}};
     return s;
 }
 
@@ -56,6 +57,7 @@ TEST(Session, ReadsWhatItWrote) {
     ASSERT_EQ(back.events.size(), 2u);
     EXPECT_EQ(back.events[1].name, "exit");
     EXPECT_EQ(back.events[1].value, "now");
+    EXPECT_EQ(back.quality, s.quality);
 }
 
 TEST(Session, InterpolatesTheHeadAndHoldsTheGaze) {
@@ -70,6 +72,25 @@ TEST(Session, InterpolatesTheHeadAndHoldsTheGaze) {
     EXPECT_FALSE(s.controller_at(1, 49).valid);
     EXPECT_TRUE(s.controller_at(1, 50).valid);
     EXPECT_FALSE(s.controller_at(0, 50).valid);
+    EXPECT_FALSE(s.quality_at(-1));
+    EXPECT_EQ(s.quality_at(499)->resolution_scale, 1.0f);
+    EXPECT_EQ(s.quality_at(501)->shadow_samples, 1);
+}
+
+TEST(Session, RefusesQualityThatNoSettingTakes) {
+    const fakes::TemporaryFolder folder;
+    folder.write("session.json", json(R"("quality")"));
+    const auto refuse = [&](const std::string& row, const std::string& part) {
+        folder.write("quality.csv",
+                     "time_ns,resolution_scale,shadow_samples,ambient_occlusion_samples,probe_rays,"
+                     "second_ray_depth\n" +
+                         row + "\n");
+        expect_fault([&] { read_session(folder.path()); }, ExitCode::BadInput, part);
+    };
+    refuse("0,0,4,1,64,1", "resolution_scale");
+    refuse("0,1,400,1,64,1", "shadow_samples is 400");
+    refuse("0,1,4,1,4,1", "use 16 to 256");
+    refuse("0,1,4,1,64,0", "second_ray_depth");
 }
 
 TEST(Session, RefusesBadFilesWithFileAndLine) {

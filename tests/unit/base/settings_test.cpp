@@ -34,7 +34,7 @@ TEST(Settings, NumbersInJsonAreAsShortAsTheyReadBack) {
         return value_json(Settings{}, *std::ranges::find(table, key, &SettingInfo::key)).dump();
     };
     EXPECT_EQ(text("foveation.angular_ratio"), "0.9746");
-    EXPECT_EQ(text("lighting.shadow_samples"), "4");
+    EXPECT_EQ(text("lighting.shadow_samples"), std::to_string(Settings{}.shadow_samples));
     EXPECT_EQ(text("lighting.shadows"), "true");
     EXPECT_EQ(text("resolve.filter"), "\"bicubic\"");
 }

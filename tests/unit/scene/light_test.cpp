@@ -31,7 +31,7 @@ TEST(PlacedLights, areaLightsShineToTheirMinusZ) {
     Node node;
     node.local.translation = {0, 2, 0};
     node.local.rotation = glm::angleAxis(-pi / 2, vec3(1, 0, 0));  // -z turns to -y
-    node.area_light = builder.add(AreaLight{"panel", {0.5f, 0.25f}, vec3(3)});
+    node.area_light = builder.add(AreaLight{"panel", AreaLightShape::Rectangle, {0.5f, 0.25f, 0.0f}, vec3(3)});
     builder.add(node);
     const Scene scene = std::move(builder).build();
     SceneAnimator animator(scene);

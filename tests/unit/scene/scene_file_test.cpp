@@ -206,6 +206,40 @@ TEST_F(SceneFile, mistakesAreNamedWithTheirPlace) {
     expect_bad({{"camera", {{"position", {0, 0, 0}}, {"look_at", {0, 0, 0}}}}}, "/camera");
 }
 
+TEST_F(SceneFile, probesArePlacedOrFitted) {
+    EXPECT_FALSE(load_json(Json::object()).probes);
+    const Scene placed =
+        load_json({{"probes", {{"counts", {4, 2, 3}}, {"center", {1, 2, 3}}, {"size", {2, 4, 6}}}}});
+    ASSERT_TRUE(placed.probes);
+    EXPECT_EQ(placed.probes->counts, uvec3(4, 2, 3));
+    expect_near(placed.probes->min, {0, 0, 0});
+    expect_near(placed.probes->max, {2, 4, 6});
+
+    // A flat thing has room above it.
+    const Json plane = {{{"shape", "plane"}, {"parameters", {{"half_size", {1, 2}}}}}};
+    const Scene fitted = load_json({{"objects", plane}, {"probes", Json::object()}});
+    ASSERT_TRUE(fitted.probes);
+    EXPECT_EQ(fitted.probes->counts, uvec3(16, 8, 16));
+    EXPECT_NEAR(fitted.probes->min.x, -1.0f, 1e-2f);
+    EXPECT_NEAR(fitted.probes->max.z, 2.0f, 1e-2f);
+    EXPECT_GT(fitted.probes->max.y, 0.05f);
+}
+
+TEST_F(SceneFile, badProbes) {
+    const auto probes = [](const Json& value) { return Json{{"probes", value}}; };
+    expect_bad(probes(Json::object()), "/probes: has nothing in the scene");
+    expect_bad(probes({{"counts", {0, 2, 2}}}), "/probes/counts/0");
+    expect_bad(probes({{"counts", {65, 2, 2}}}), "/probes/counts/0");
+    expect_bad(probes({{"counts", {2, 2}}}), "/probes/counts");
+    expect_bad(probes({{"counts", {2.5, 2, 2}}}), "/probes/counts/0");
+    expect_bad(probes({{"counts", {64, 64, 64}}, {"center", {0, 0, 0}}, {"size", {1, 1, 1}}}),
+               "/probes/counts: makes 262144 probes");
+    expect_bad(probes({{"size", {1, 1, 1}}}), "/probes: has only one of center and size");
+    expect_bad(probes({{"center", {0, 0, 0}}, {"size", {1, 0, 1}}}), "/probes/size/1");
+    expect_bad(probes({{"center", {0, 0, 0}}, {"size", {1, 1e39, 1}}}), "/probes/size");
+    expect_bad(probes({{"center", {0, 0, 0}}, {"size", {1, 1e-6, 1}}}), "/probes/size: is too small");
+}
+
 TEST_F(SceneFile, otherFormatsVersionsAndSyntax) {
     const auto expect_bad_text = [&](const std::string& text, const std::string& part) {
         fakes::expect_fault([&] { load_scene(folder_.write("scene.json", text)); }, ExitCode::BadInput, part);
