@@ -46,18 +46,10 @@ std::optional<render::RayPipeline> ShapeReload::take() {
 
 void ShapeReload::watch() {
     for (;;) {
-        bool changed = false;
         for (scene::UserShapeId id = 0; id < files_.size(); ++id) {
-            if (saved(files_[id])) changed |= reload(id);
-        }
-        std::optional<render::RayPipeline> made;
-        try {
-            if (changed) made = make_pipeline_(shaders_);
-        } catch (const std::exception& e) {
-            log::error("{}; what was shown stays", e.what());
+            if (saved(files_[id])) reload(id);
         }
         std::unique_lock lock(mutex_);
-        if (made) ready_ = std::move(made);
         if (wake_.wait_for(lock, period, [this] { return stop_; })) return;
     }
 }
@@ -73,18 +65,22 @@ bool ShapeReload::saved(File& file) const {
     return is_new;
 }
 
-bool ShapeReload::reload(scene::UserShapeId id) {
+void ShapeReload::reload(scene::UserShapeId id) {
     File& file = files_[id];
     try {
         const scene::UserShapeCode code = scene::read_user_shape(file.path);
-        if (code.text == file.text) return false;
+        if (code.text == file.text) return;
         file.text = code.text;
-        shaders_[id] = store_.prepare(scene_, id, code);
+        render::UserShaders shaders = shaders_;
+        shaders[id] = store_.prepare(scene_, id, code);
+        render::RayPipeline made = make_pipeline_(shaders);
+        shaders_ = std::move(shaders);
+        const std::lock_guard lock(mutex_);
+        ready_ = std::move(made);
         log::info("{}: reloaded", file.path.string());
-        return true;
     } catch (const std::exception& e) {
+        file.text.clear();  // to be tried again when it is saved again, even if nothing is changed
         log::error("{}; the last good shape stays", e.what());
-        return false;
     }
 }
 

@@ -39,7 +39,7 @@ class ShapeReload {
 
     void watch();
     bool saved(File& file) const;
-    bool reload(scene::UserShapeId id);
+    void reload(scene::UserShapeId id);
 
     const scene::Scene& scene_;
     user_shapes::ShapeStore& store_;

@@ -53,6 +53,9 @@ Transform SceneValues::transform(const Json& json, const std::string& place) con
     Transform t;
     t.translation = triple(json, "translation", place, vec3(0.0f));
     t.scale = triple(json, "scale", place, vec3(1.0f));
+    if (glm::any(glm::lessThan(t.scale, vec3(1e-12f))) || glm::any(glm::greaterThan(t.scale, vec3(1e12f)))) {
+        fault(place + "/scale", "is out of range", "give 1e-12 to 1e12");
+    }
     t.rotation = rotation(json, "rotation", place);
     if (json.contains("euler_degrees")) {
         if (json.contains("rotation"))

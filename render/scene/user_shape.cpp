@@ -5,6 +5,8 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -203,6 +205,21 @@ std::vector<UserShapeCode::Argument> arguments_of(const std::filesystem::path& f
 
 std::string type_name(std::uint32_t width) { return type_names[width - 1]; }
 
+/// What reaches beyond the shader that the shape becomes a part of.
+void refuse_resources(const std::filesystem::path& file, const std::string& text) {
+    for (const Token& token : tokens_of(text)) {
+        if (token.text != "layout") continue;
+        fault(file, token.line, "asks for memory or textures with \"layout\"", "take numbers as arguments");
+    }
+    static const std::regex extension("^[ \\t]*#[ \\t]*extension\\b");
+    std::istringstream lines(text);
+    std::string line;
+    for (std::uint32_t number = 1; std::getline(lines, line); ++number) {
+        if (!std::regex_search(line, extension)) continue;
+        fault(file, number, "asks for an extension of GLSL", "write it without");
+    }
+}
+
 }  // namespace
 
 std::string_view UserShapeCode::function() const {
@@ -237,6 +254,7 @@ UserShapeCode parse_user_shape(const std::filesystem::path& file, std::string te
     UserShapeCode code;
     code.file = file;
     code.text = std::move(text);
+    refuse_resources(file, code.text);
     bool has_surface = false;
     for (const Function& function : Reader(file, code.text).functions()) {
         std::vector<UserShapeCode::Argument> arguments = arguments_of(file, function);

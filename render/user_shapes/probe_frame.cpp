@@ -17,7 +17,7 @@ const vec3 directions[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0,
 scene::Scene scene_of(const scene::UserShape& user, scene::Shape shape) {
     scene::SceneBuilder builder;
     shape.user = builder.add(user);
-    shape.animated = false;
+    shape.animated = true;  // its values and box are those of the moment
     scene::Node node;
     node.shape = builder.add(std::move(shape));
     builder.add(std::move(node));
@@ -53,7 +53,13 @@ ProbeFrame::ProbeFrame(const gpu::Device& device, gpu::TextureTable& textures, c
       grid_(device, "probe grid", sizeof(shared::SampleGrid), gpu::Residence::Upload),
       readback_(device, "probe surfaces", pixels * sizeof(shared::Surface), gpu::Residence::Readback) {}
 
-std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views) {
+std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views, const ProbeMoment& moment) {
+    scene_.shapes[0].user_bounds = moment.shape.user_bounds;
+    scene_.shapes[0].user_time = moment.shape.user_time;
+    scene::SceneChanges changes = animator_.advance(0);
+    changes.time = static_cast<Nanoseconds>(static_cast<double>(moment.seconds) * 1e9);
+    changes.shapes[0] = {moment.shape.values, moment.shape.user_bounds, true};
+
     auto [params, grid] = render::pixel_grid(views, {});
     grid_.write(gpu::bytes_of(params));
     grid.grids = grid_.address();
@@ -61,7 +67,7 @@ std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views) {
     const vk::DeviceSize size = grid.sample_count * sizeof(shared::Surface);
     const gpu::Commands cmd = ring_.begin();
     counters_.clear(cmd);
-    const render::GpuSceneFrame frame = gpu_scene_.record(cmd, 0, animator_.advance(0), {});
+    const render::GpuSceneFrame frame = gpu_scene_.record(cmd, 0, changes, {});
     accel_.record(cmd, 0, frame, pipeline_);
     const render::Surfaces hits = primary_.record(cmd, grid, 0, counters_.address());
     cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::TransferRead);
@@ -76,11 +82,11 @@ std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views) {
 
 void ProbeFrame::warm_up() {
     const scene::Aabb bounds = scene_.shapes[0].user_bounds;
-    look(std::array{view_along({1, 0, 0}, bounds.max + bounds.extent(), 40.0f)});
+    look(std::array{view_along({1, 0, 0}, bounds.max + bounds.extent(), 40.0f)}, {scene_.shapes[0], 0.0f});
 }
 
-std::optional<std::string> ProbeFrame::run() {
-    const scene::Aabb bounds = scene_.shapes[0].user_bounds;
+std::optional<std::string> ProbeFrame::run(const ProbeMoment& moment) {
+    const scene::Aabb bounds = moment.shape.user_bounds;
     const float away = 1.5f * glm::length(bounds.extent());
     std::vector<View> views;
     for (const vec3 direction : directions) {
@@ -88,7 +94,7 @@ std::optional<std::string> ProbeFrame::run() {
         views.push_back(view_along(direction, bounds.center(), 45.0f));
     }
     for (std::size_t i = 0; i < views.size(); i += shared::MAX_VIEWS) {
-        for (const shared::Surface& s : look(std::span(views).subspan(i, shared::MAX_VIEWS))) {
+        for (const shared::Surface& s : look(std::span(views).subspan(i, shared::MAX_VIEWS), moment)) {
             if (s.kind == shared::SURFACE_NONE) continue;
             if (!std::isfinite(s.distance) || !is_number(s.position))
                 return "is hit at a distance of NaN or infinity";

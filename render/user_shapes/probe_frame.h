@@ -7,6 +7,7 @@
 #include "render/primary.h"
 #include "render/ray_counters.h"
 #include "render/scene/scene_builder.h"
+#include "render/user_shapes/probe_request.h"
 #include "shaders/shared/surface.h"
 
 namespace foveray::user_shapes {
@@ -20,11 +21,11 @@ class ProbeFrame {
 
     /// Lets the driver compile: traces rays that meet nothing. Waits.
     void warm_up();
-    /// What is wrong with what the rays find, if anything. Waits.
-    std::optional<std::string> run();
+    /// What is wrong with what the rays find of a shape of the same file, if anything. Waits.
+    std::optional<std::string> run(const ProbeMoment& moment);
 
   private:
-    std::vector<shared::Surface> look(std::span<const View> views);
+    std::vector<shared::Surface> look(std::span<const View> views, const ProbeMoment& moment);
 
     scene::Scene scene_;
     scene::SceneAnimator animator_;

@@ -8,7 +8,8 @@ namespace foveray::user_shapes {
 namespace {
 
 constexpr int looks = 8;                    // through the animations
-constexpr std::size_t most_moments = 32;    // of all objects together
+constexpr std::size_t most_objects = 512;   // that are looked at as they start
+constexpr std::size_t most_moments = 32;    // of all objects together, of their animations
 constexpr float otherwise_seconds = 10.0f;  // where only `time` moves the shape
 
 Json vector_json(vec3 v) { return {v.x, v.y, v.z}; }
@@ -69,7 +70,8 @@ ProbeRequest make_request(const scene::Scene& scene, const scene::UserShape& use
             ProbeMoment moment{scene.shapes[shape], user.code.uses_time() ? seconds : 0.0f};
             moment.shape.values = changes.shapes[shape].values;
             const Json json = moment_json(moment);
-            if (std::ranges::find(known, json) != known.end() || known.size() == most_moments) continue;
+            if (std::ranges::find(known, json) != known.end()) continue;
+            if (known.size() >= (i == 0 ? most_objects : most_moments)) continue;
             known.push_back(json);
             request.moments.push_back(std::move(moment));
         }

@@ -54,6 +54,14 @@ TEST(UserShapeArguments, APrototypeIsNoDefinition) {
     refuse("float distance_at(vec3 p);", "neither distance_at nor intersect");
 }
 
+TEST(UserShapeArguments, NothingBeyondTheShaderIsAskedFor) {
+    const std::string ball = "float distance_at(vec3 p) { return length(p) - 0.5; }\n";
+    refuse(ball + "layout(set = 3, binding = 0) buffer Own { uint count; };",
+           "shape.glsl:2: asks for memory");
+    refuse(ball + "  # extension GL_ARB_gpu_shader_int64 : require", "shape.glsl:2: asks for an extension");
+    EXPECT_NO_THROW(parse(ball + "// layout and #extension are words of a comment"));
+}
+
 TEST(UserShapeArguments, FilesThatDefineNoShapeOrTwo) {
     refuse("float far_away(vec3 p) { return 1.0; }", "neither distance_at nor intersect");
     refuse("", "shape.glsl");

@@ -75,6 +75,7 @@ TEST_F(SceneObjects, transformsThatCannotBeUndoneAreNamed) {
     expect_bad(with({{"scale", {0, 1, 1}}}), "/objects/0/transform/scale/0");
     expect_bad(with({{"scale", {1, -1, 1}}}), "/objects/0/transform/scale/1");
     expect_bad(with({{"scale", {1, 1, 1e300}}}), "/objects/0/transform/scale");
+    expect_bad(with({{"scale", {1, 1, 1e-30}}}), "/objects/0/transform/scale");
     expect_bad(with({{"rotation", {0, 0, 0, 0}}}), "/objects/0/transform/rotation: is no rotation");
     expect_bad(with({{"translation", {0, 1e300, 0}}}), "/objects/0/transform/translation");
     expect_bad({{"shape", "sphere"}, {"instances", {{{"scale", {1, 1, 0}}}}}},
