@@ -69,6 +69,7 @@ class ProbesTest : public fakes::GpuTest {
         shot.views = {square_view(half_angle, pixels, pose)};
         shot.settings.reflections = false;
         shot.settings.shadow_samples = 4;
+        shot.settings.ambient_occlusion_samples = 0;  // the path tracer knows no such thing
         return shot;
     }
 };
