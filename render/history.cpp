@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "render/grow.h"
 #include "shaders/shared/history.h"
 
 namespace foveray::render {
@@ -43,10 +44,7 @@ LightLayers HistoryStage::record(const gpu::Commands& cmd, const HistoryInput& i
     current_ = 1 - current_;
     Kept& kept = kept_[current_];
     const auto reserve = [&](gpu::Buffer& buffer, const char* name, vk::DeviceSize sample_bytes) {
-        const vk::DeviceSize bytes = grid.sample_count * sample_bytes;
-        if (buffer.size() >= bytes) return;
-        device_.vk().waitIdle();  // earlier frames still read what is replaced
-        buffer = gpu::Buffer(device_, name, bytes, gpu::Residence::Device);
+        grow(device_, buffer, name, grid.sample_count * sample_bytes);
     };
     const vk::DeviceSize light_bytes = layers * sizeof(uvec2);
     const bool temporal = input.settings.history_temporal && started_ && layers == layers_;

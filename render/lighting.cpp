@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "render/grow.h"
 #include "shaders/shared/lighting.h"
 
 namespace foveray::render {
@@ -30,17 +31,11 @@ LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingIn
     const auto stage = cmd.stage("lighting");
     const Settings& settings = input.settings;
     const vk::DeviceSize bytes = vk::DeviceSize{input.grid.sample_count} * sizeof(shared::LightSample);
-    if (samples_.size() < bytes) {
-        device_.vk().waitIdle();
-        samples_ = gpu::Buffer(device_, "light samples", bytes, gpu::Residence::Device);
-    }
+    grow(device_, samples_, "light samples", bytes);
     const bool polar = input.grid.kind == shared::GRID_POLAR;
     const vk::DeviceSize shadowed_bytes =
         vk::DeviceSize{input.grid.sample_count} * sizeof(shared::ShadowedLight);
-    if (polar && shadowed_.size() < shadowed_bytes) {
-        device_.vk().waitIdle();
-        shadowed_ = gpu::Buffer(device_, "shadowed light", shadowed_bytes, gpu::Residence::Device);
-    }
+    if (polar) grow(device_, shadowed_, "shadowed light", shadowed_bytes);
 
     shared::LightingPush push{};
     push.grid = input.grid.at(sub_sample);

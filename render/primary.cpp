@@ -1,5 +1,6 @@
 #include "render/primary.h"
 
+#include "render/grow.h"
 #include "shaders/shared/primary.h"
 #include "shaders/shared/surface.h"
 
@@ -14,10 +15,7 @@ Surfaces PrimaryStage::record(const gpu::Commands& cmd, const SampleGrid& grid, 
     using gpu::Access;
     const auto stage = cmd.stage("primary");
     const vk::DeviceSize size = vk::DeviceSize{grid.sample_count} * sizeof(shared::Surface);
-    if (!surfaces_ || surfaces_.size() < size) {
-        device_.vk().waitIdle();  // earlier frames still read what is replaced
-        surfaces_ = gpu::Buffer(device_, "surfaces", size, gpu::Residence::Device);
-    }
+    grow(device_, surfaces_, "surfaces", size);
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead}) {
         cmd.barrier(read, Access::RayTracingWrite);
     }

@@ -158,7 +158,6 @@ shared::ProbePush ProbeStage::push_of(const ProbeInput& input, float seconds) co
                  (since_geometry_change_ < settling ? shared::PROBES_RELOCATE : 0u);
     push.ray_count = ray_count_;
     push.frame_index = frame_;
-    push.shadow_samples = 1;
     push.environment_intensity = settings.environment_intensity;
     push.decay = seconds / memory;
     push.fast_decay = since_change_ < surprise ? std::max(seconds / fastest, push.decay) : 0.0f;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "render/grow.h"
 #include "render/polar_map.h"
 #include "render/visibility_mask.h"
 #include "shaders/shared/fixation.h"
@@ -166,10 +167,7 @@ vk::DeviceAddress SamplingStage::upload_grids(const gpu::Commands& cmd, Slot& sl
     if (slot.grid_staging.size() < bytes) {
         slot.grid_staging = gpu::Buffer(device_, "staging for sample grids", bytes, gpu::Residence::Upload);
     }
-    if (grids_.size() < bytes) {
-        device_.vk().waitIdle();  // earlier frames still read what is replaced
-        grids_ = gpu::Buffer(device_, "sample grids", bytes, gpu::Residence::Device);
-    }
+    grow(device_, grids_, "sample grids", bytes);
     slot.grid_staging.write(std::as_bytes(grids));
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead})
         cmd.barrier(read, Access::TransferWrite);

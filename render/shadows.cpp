@@ -3,10 +3,16 @@
 #include <algorithm>
 
 #include "render/blue_noise.h"
+#include "render/grow.h"
 #include "shaders/shared/lighting.h"
 #include "shaders/shared/shadows.h"
 
 namespace foveray::render {
+namespace {
+
+constexpr int fewest_adaptive = 16;  // samples a light, from which on it pays to look first
+
+}  // namespace
 
 ShadowStage::ShadowStage(const gpu::Device& device, const gpu::TextureTable& textures,
                          const engine::SceneRayTracer& tracer, Entries entries)
@@ -26,16 +32,11 @@ Shadows ShadowStage::record(const gpu::Commands& cmd, const ShadowInput& input, 
     const Settings& settings = input.settings;
     const vk::DeviceSize samples = input.grid.sample_count;
     const std::uint32_t lights = std::min(input.light_count, shared::MOST_KNOWN_LIGHTS);
-    const bool adaptive =
-        lights > 0 && settings.shadows && settings.adaptive_shadows && settings.shadow_samples >= 16;
-    const auto reserve = [&](gpu::Buffer& buffer, const char* name, vk::DeviceSize words) {
-        if (buffer.size() >= 4 * words) return;
-        device_.vk().waitIdle();  // earlier frames still read what is replaced
-        buffer = gpu::Buffer(device_, name, 4 * words, gpu::Residence::Device);
-    };
-    reserve(visibility_, "light visibility", std::max<vk::DeviceSize>(lights * samples, 1));
-    reserve(openness_, "openness", samples);
-    if (adaptive) reserve(penumbras_, "penumbras", 1 + lights * samples);
+    const bool adaptive = lights > 0 && settings.shadows && settings.adaptive_shadows &&
+                          settings.shadow_samples >= fewest_adaptive;
+    grow(device_, visibility_, "light visibility", 4 * std::max<vk::DeviceSize>(lights * samples, 1));
+    grow(device_, openness_, "openness", 4 * samples);
+    if (adaptive) grow(device_, penumbras_, "penumbras", 4 * (1 + lights * samples));
 
     shared::ShadowPush push{};
     push.surfaces = input.surfaces.surfaces;

@@ -1,10 +1,10 @@
-// Short rays that look for what keeps light from all round away. The including shader has `push` (LightingPush).
+// Short rays that look for what keeps light from all round away. The including shader has `push` (ShadowPush).
 #ifndef FOVERAY_RENDER_AMBIENT_OCCLUSION_GLSL
 #define FOVERAY_RENDER_AMBIENT_OCCLUSION_GLSL
 
 #include "shaders/render/brdf.glsl"
 #include "shaders/render/low_discrepancy.glsl"
-#include "shaders/render/ray_origin.glsl"
+#include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_shadow.glsl"
 #include "shaders/shared/surface.h"
 
@@ -26,7 +26,7 @@ vec3 cosine_direction(vec2 uv) {
 // Part of the light from all round that arrives, 0 … 1.
 float ambient_visibility(Surface surface, vec2 turn) {
     if (push.occlusion_samples == 0) return 1.0;
-    vec3 origin = ray_origin(surface.position, surface.position_error, surface.geometric_normal);
+    vec3 origin = above_surface(surface);
     mat3 basis = basis_round(surface.normal);
     RayCone cone = RayCone(surface.footprint, 0.0);
     float seen = 0.0;

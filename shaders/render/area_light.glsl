@@ -78,9 +78,8 @@ vec3 area_light_outline(Light light, vec3 position, uint i) {
     if (light.type == LIGHT_SPHERE) {
         vec3 way = light.position - position;
         float sine_2 = min(light.range * light.range / dot(way, way), 1.0);
-        vec3 axis = normalize(way);
-        vec3 u = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0, 1, 0)) : cross(axis, vec3(1, 0, 0)));
-        vec3 v = cross(axis, u);
+        vec3 u, v;
+        across(normalize(way), u, v);
         float angle = 2.0 * PI * float(i) / 6.0;
         return light.position - sine_2 * way + light.range * sqrt(1.0 - sine_2) * (cos(angle) * u + sin(angle) * v);
     }

@@ -5,7 +5,7 @@
 #define FOVERAY_RENDER_LIGHT_PATH_GLSL
 
 #include "shaders/render/optics.glsl"
-#include "shaders/render/ray_origin.glsl"
+#include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_surface.glsl"
 
 // How a ray's light reaches the viewer.
@@ -55,23 +55,10 @@ Surface trace_waiting(out Path path, out vec3 origin) {
     return trace_surface(mask, faces, origin, path.direction, FARTHEST, RayCone(next.width, path.spread));
 }
 
-vec3 above_surface(Surface surface) {
-    return ray_origin(surface.position, surface.position_error, surface.geometric_normal);
-}
-
-// `position` may be in front of the true surface by its error, so that only from as far behind it the surface is not
-// met again.
-vec3 below_surface(Surface surface) {
-    float beyond = surface.position_error + min(surface.position_error, 0.5 * surface.footprint);
-    return ray_origin(surface.position, beyond, -surface.geometric_normal);
-}
-
 // Straight on; there is always room for it.
 bool pass_later(Surface surface, Path path, vec3 passed) {
     path.weight *= passed;
-    bool has_inside = surface.thickness > 0.0;
-    vec3 origin = has_inside ? surface.position + surface.thickness * path.direction : below_surface(surface);
-    return trace_later(path, origin, surface.footprint, MOST_WAITING);
+    return trace_later(path, behind_surface(surface, path.direction), surface.footprint, MOST_WAITING);
 }
 
 bool second_later(Surface surface, Path path, vec3 origin, vec3 weight, float roughness) {

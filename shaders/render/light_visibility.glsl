@@ -5,7 +5,7 @@
 #include "shaders/render/area_light.glsl"
 #include "shaders/render/low_discrepancy.glsl"
 #include "shaders/render/punctual_light.glsl"
-#include "shaders/render/ray_origin.glsl"
+#include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_shadow.glsl"
 #include "shaders/shared/lighting.h"
 #include "shaders/shared/surface.h"
@@ -16,7 +16,7 @@ uint shadow_ray_count = 0;
 vec3 light_through(Surface surface, vec3 target) {
     if ((push.flags & LIGHTING_SHADOWS) == 0) return vec3(1.0);
     if (dot(surface.geometric_normal, target - surface.position) <= 0.0) return vec3(0.0);
-    vec3 origin = ray_origin(surface.position, surface.position_error, surface.geometric_normal);
+    vec3 origin = above_surface(surface);
     vec3 way = target - origin;
     float length_of_way = length(way);
     ++shadow_ray_count;
@@ -38,8 +38,6 @@ vec3 area_light_visibility(AreaLight area, Surface surface, vec2 turn, uint samp
     return sent > 0.0 ? arrived / sent : vec3(1.0);
 }
 
-// From so many samples on it pays to look first.
-const uint FEWEST_ADAPTIVE_SAMPLES = 16;
 const uint FIRST_SAMPLES = 2;
 
 // What all of a few samples and the light's outline agree on; `mixed` where they do not. What has a straight edge and
@@ -74,7 +72,7 @@ vec3 first_visibility(Light light, Surface surface, vec2 turn, uint samples, out
     }
     AreaLight area = area_light_at(light, surface.position, surface.normal);
     if (area.irradiance <= 0.0) return vec3(-1.0);
-    bool adaptive = samples >= FEWEST_ADAPTIVE_SAMPLES && (push.flags & LIGHTING_ADAPTIVE_SHADOWS) != 0;
+    bool adaptive = (push.flags & LIGHTING_ADAPTIVE_SHADOWS) != 0;
     return adaptive ? agreed_visibility(area, surface, turn, mixed) : area_light_visibility(area, surface, turn, samples);
 }
 

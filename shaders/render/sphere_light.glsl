@@ -25,6 +25,12 @@ float sphere_irradiance(SphereLight s, vec3 position, vec3 normal) {
     return max((cosine * acos(clamp(y, -1.0, 1.0)) - x * z) * sine_2 + atan(z / x), 0.0);
 }
 
+// Unit vectors across `axis` and one another.
+void across(vec3 axis, out vec3 u, out vec3 v) {
+    u = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0, 1, 0)) : cross(axis, vec3(1, 0, 0)));
+    v = cross(axis, u);
+}
+
 // Point on the side that faces `position`, uniform in solid angle.
 vec3 sphere_point(SphereLight s, vec3 position, vec2 uv) {
     vec3 way = s.center - position;
@@ -35,8 +41,8 @@ vec3 sphere_point(SphereLight s, vec3 position, vec2 uv) {
     float sine_2 = max(1.0 - cosine * cosine, 0.0);
     float reach = distance_to_center * cosine -
                   sqrt(max(s.radius * s.radius - distance_to_center * distance_to_center * sine_2, 0.0));
-    vec3 u = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0, 1, 0)) : cross(axis, vec3(1, 0, 0)));
-    vec3 v = cross(axis, u);
+    vec3 u, v;
+    across(axis, u, v);
     float angle = 2.0 * PI * uv.y;
     return position + reach * (cosine * axis + sqrt(sine_2) * (cos(angle) * u + sin(angle) * v));
 }

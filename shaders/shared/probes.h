@@ -63,11 +63,9 @@ struct ProbePush {
     uint flags;
     uint ray_count;
     uint frame_index;
-    uint shadow_samples;
     float environment_intensity;
     float decay;       // how much of the past a frame forgets: 1 - exp(-decay)
     float fast_decay;  // the same, of probes whose light has changed at once; 0: none has
-    uint pad;
 };
 
 FOVERAY_INLINE float probe_sign(float v) { return v < 0.0f ? -1.0f : 1.0f; }
@@ -102,7 +100,7 @@ FOVERAY_SHARED_END
 namespace foveray::shared {
 static_assert(sizeof(ProbeState) == 24 && offsetof(ProbeState, haste) == 20);
 static_assert(sizeof(ProbeField) == 96 && offsetof(ProbeField, directions) == 88);
-static_assert(sizeof(ProbePush) == 72 && offsetof(ProbePush, pad) == 68);
+static_assert(sizeof(ProbePush) == 64 && offsetof(ProbePush, fast_decay) == 60);
 }  // namespace foveray::shared
 #else
 FOVERAY_ARRAY(ProbeStateArray, ProbeState);
