@@ -88,6 +88,18 @@ vec3 area_light_outline(Light light, vec3 position, uint i) {
     return corner + ((i & 4) == 0 ? -light.range : light.range) * light.direction;
 }
 
+// Whether corner i of a box is on its outline: not where all or none of the three faces round it are seen.
+bool on_box_outline(Light light, vec3 position, uint i) {
+    vec3 way = position - light.position;
+    vec3 axes[3] = vec3[3](light.half_u, light.half_v, light.range * light.direction);
+    uint seen = 0;
+    for (uint axis = 0; axis < 3; ++axis) {
+        float out_of_face = dot((i >> axis & 1) == 0 ? -axes[axis] : axes[axis], way);
+        if (out_of_face > dot(axes[axis], axes[axis])) ++seen;
+    }
+    return seen == 1 || seen == 2;
+}
+
 // Mirror part of what the unshadowed light sends to the viewer.
 vec3 area_light_specular(AreaLight area, Brdf brdf, vec3 position, vec3 normal, vec3 view) {
     if (area.light.type == LIGHT_SPHERE) return sphere_specular(sphere_of(area.light), brdf, position, normal, view);

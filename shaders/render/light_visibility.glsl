@@ -30,7 +30,7 @@ vec3 area_light_visibility(AreaLight area, Surface surface, vec2 turn, uint samp
     float sent = 0.0;
     for (uint i = 0; i < samples; ++i) {
         float weight;
-        vec3 target = area_light_point(area, surface.position, surface.normal, evenly_spread(turn, i), weight);
+        vec3 target = area_light_point(area, surface.position, surface.normal, net_point(i, samples, turn), weight);
         if (weight == 0.0) continue;
         sent += weight;
         arrived += weight * light_through(surface, target);
@@ -42,17 +42,18 @@ const uint FIRST_SAMPLES = 2;
 
 // What all of a few samples and the light's outline agree on; `mixed` where they do not. What has a straight edge and
 // hides a part of the light cannot escape that, and what is smaller is met by the samples of neighbours.
-vec3 agreed_visibility(AreaLight area, Surface surface, vec2 turn, out bool mixed) {
-    uint outline = area_light_outline_count(area.light);
-    vec3 first = vec3(0.0);
+vec3 agreed_visibility(AreaLight area, Surface surface, vec2 turn, bool thorough, out bool mixed) {
+    uint outline = thorough ? area_light_outline_count(area.light) : 0;
+    vec3 first = vec3(-1.0);
     mixed = false;
     for (uint i = 0; i < outline + FIRST_SAMPLES; ++i) {
+        if (i < outline && area.light.type == LIGHT_BOX && !on_box_outline(area.light, surface.position, i)) continue;
         float weight;
         vec3 target = i < outline ? area_light_outline(area.light, surface.position, i)
                                   : area_light_point(area, surface.position, surface.normal,
                                                      evenly_spread(turn, i - outline), weight);
         vec3 through = light_through(surface, target);
-        if (i == 0) first = through;
+        if (first.x < 0.0) first = through;
         if (through != first) {
             mixed = true;
             break;
@@ -62,7 +63,8 @@ vec3 agreed_visibility(AreaLight area, Surface surface, vec2 turn, out bool mixe
 }
 
 // What arrives of a light, in parts; x < 0: it does not shine there. `mixed`: all samples must be taken.
-vec3 first_visibility(Light light, Surface surface, vec2 turn, uint samples, out bool mixed) {
+// `thorough`: one of each four neighbours at least should be.
+vec3 first_visibility(Light light, Surface surface, vec2 turn, uint samples, bool thorough, out bool mixed) {
     mixed = false;
     if (!is_area_light(light)) {
         LightArrival arrival = punctual_light(light, surface.position);
@@ -73,7 +75,7 @@ vec3 first_visibility(Light light, Surface surface, vec2 turn, uint samples, out
     AreaLight area = area_light_at(light, surface.position, surface.normal);
     if (area.irradiance <= 0.0) return vec3(-1.0);
     bool adaptive = (push.flags & LIGHTING_ADAPTIVE_SHADOWS) != 0;
-    return adaptive ? agreed_visibility(area, surface, turn, mixed) : area_light_visibility(area, surface, turn, samples);
+    return adaptive ? agreed_visibility(area, surface, turn, thorough, mixed) : area_light_visibility(area, surface, turn, samples);
 }
 
 #endif

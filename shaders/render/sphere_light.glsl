@@ -31,20 +31,32 @@ void across(vec3 axis, out vec3 u, out vec3 v) {
     v = cross(axis, u);
 }
 
+// Place in the unit disc: neighbours in the square stay neighbours. Shirley and Chiu 1997, "A Low
+// Distortion Map Between Disk and Square".
+vec2 disc_point(vec2 uv) {
+    vec2 p = 2.0 * uv - 1.0;
+    if (p == vec2(0.0)) return vec2(0.0);
+    bool wide = abs(p.x) > abs(p.y);
+    float radius = wide ? p.x : p.y;
+    float angle = wide ? PI / 4.0 * (p.y / p.x) : PI / 2.0 - PI / 4.0 * (p.x / p.y);
+    return radius * vec2(cos(angle), sin(angle));
+}
+
 // Point on the side that faces `position`, uniform in solid angle.
 vec3 sphere_point(SphereLight s, vec3 position, vec2 uv) {
+    vec2 disc = disc_point(uv);
     vec3 way = s.center - position;
     float distance_to_center = length(way);
     vec3 axis = way / distance_to_center;
     float sine_2_max = min(s.radius * s.radius / (distance_to_center * distance_to_center), 1.0);
-    float cosine = 1.0 - uv.x * (1.0 - sqrt(1.0 - sine_2_max));
+    float cosine = 1.0 - dot(disc, disc) * (1.0 - sqrt(1.0 - sine_2_max));
     float sine_2 = max(1.0 - cosine * cosine, 0.0);
     float reach = distance_to_center * cosine -
                   sqrt(max(s.radius * s.radius - distance_to_center * distance_to_center * sine_2, 0.0));
     vec3 u, v;
     across(axis, u, v);
-    float angle = 2.0 * PI * uv.y;
-    return position + reach * (cosine * axis + sqrt(sine_2) * (cos(angle) * u + sin(angle) * v));
+    vec2 towards = disc * inversesqrt(max(dot(disc, disc), 1e-12));
+    return position + reach * (cosine * axis + sqrt(sine_2) * (towards.x * u + towards.y * v));
 }
 
 // As rectangle_specular: Karis 2013, eq. 10-12.
