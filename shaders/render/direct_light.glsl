@@ -3,6 +3,7 @@
 #define FOVERAY_RENDER_DIRECT_LIGHT_GLSL
 
 #include "shaders/render/light_visibility.glsl"
+#include "shaders/render/later_shadows.glsl"
 #include "shaders/render/shadows.glsl"
 
 struct DirectLight {
@@ -23,9 +24,10 @@ struct ShadowSource {
     uint known;
     uint64_t visibility;  // as ShadowPush::visibility, from this surface's sample on
     uint stride;          // from light to light
+    vec3 later;           // above 0: shadow rays may be traced later, and their light counts for so much
 };
 
-ShadowSource traced_shadows(vec2 turn, uint samples) { return ShadowSource(turn, samples, 0, 0ul, 0); }
+ShadowSource traced_shadows(vec2 turn, uint samples) { return ShadowSource(turn, samples, 0, 0ul, 0, vec3(0.0)); }
 
 DirectLight direct_light(Surface surface, Brdf brdf, vec3 view, ShadowSource shadows) {
     DirectLight sum = DirectLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
@@ -49,7 +51,13 @@ DirectLight direct_light(Surface surface, Brdf brdf, vec3 view, ShadowSource sha
             open = irradiance * brdf_diffuse(brdf, clamp(dot(view, h), 0.0, 1.0)) +
                    light.intensity * area_light_specular(area, brdf, surface.position, surface.normal, view);
             if (i >= shadows.known) {
-                arriving = area_light_visibility(area, surface, evenly_spread(shadows.turn, 7 * i), shadows.samples);
+                vec2 turn = evenly_spread(shadows.turn, 7 * i);
+                if (shadows.later != vec3(0.0)) {
+                    float weight;
+                    vec3 target = area_light_point(area, surface.position, surface.normal, turn, weight);
+                    if (weight > 0.0 && shadow_later(surface, target, shadows.later * open)) continue;
+                }
+                arriving = area_light_visibility(area, surface, turn, shadows.samples);
             }
         } else {
             LightArrival arrival = punctual_light(light, surface.position);
@@ -57,7 +65,9 @@ DirectLight direct_light(Surface surface, Brdf brdf, vec3 view, ShadowSource sha
             if (irradiance == vec3(0.0)) continue;
             open = irradiance * brdf_value(brdf, surface.normal, view, arrival.direction);
             if (i >= shadows.known) {
-                arriving = light_through(surface, surface.position + arrival.distance * arrival.direction);
+                vec3 target = surface.position + arrival.distance * arrival.direction;
+                if (shadows.later != vec3(0.0) && shadow_later(surface, target, shadows.later * open)) continue;
+                arriving = light_through(surface, target);
             }
         }
         sum.unshadowed += irradiance;

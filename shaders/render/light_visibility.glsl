@@ -12,16 +12,23 @@
 
 uint shadow_ray_count = 0;
 
-// What virtual things let through from a point to another; nothing when it lies below the surface.
-vec3 light_through(Surface surface, vec3 target) {
-    if ((push.flags & LIGHTING_SHADOWS) == 0) return vec3(1.0);
-    if (dot(surface.geometric_normal, target - surface.position) <= 0.0) return vec3(0.0);
-    vec3 origin = above_surface(surface);
+RayCone shadow_cone(Surface surface) {
+    return RayCone(surface.footprint, surface.footprint / max(surface.distance, 1e-3));
+}
+
+// What virtual things let through from a point to another.
+vec3 light_between(vec3 origin, vec3 target, RayCone cone) {
     vec3 way = target - origin;
     float length_of_way = length(way);
     ++shadow_ray_count;
-    RayCone cone = RayCone(surface.footprint, surface.footprint / max(surface.distance, 1e-3));
     return trace_shadow(MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999, cone);
+}
+
+// Nothing when the target lies below the surface.
+vec3 light_through(Surface surface, vec3 target) {
+    if ((push.flags & LIGHTING_SHADOWS) == 0) return vec3(1.0);
+    if (dot(surface.geometric_normal, target - surface.position) <= 0.0) return vec3(0.0);
+    return light_between(above_surface(surface), target, shadow_cone(surface));
 }
 
 // Part of an area light's irradiance that arrives, from samples spread evenly over the light.
