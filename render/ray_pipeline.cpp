@@ -21,6 +21,7 @@ RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const User
     d.primary = d.program.add_ray_generation("render/primary.rgen");
     d.shadows.shadows = d.program.add_ray_generation("render/shadows.rgen");
     d.shadows.penumbras = d.program.add_ray_generation("render/penumbras.rgen");
+    d.shadows.penumbra_rays = d.program.add_ray_generation("render/penumbra_rays.rgen");
     d.lighting = d.program.add_ray_generation("render/lighting.rgen");
     return d;
 }

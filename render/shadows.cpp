@@ -14,12 +14,23 @@ constexpr int fewest_adaptive = 16;  // samples a light, from which on it pays t
 
 }  // namespace
 
+struct ShadowStage::Penumbras {
+    std::uint32_t most;  // in a list
+    std::uint32_t samples;
+
+    bool in_cells() const { return shared::penumbra_first_level(samples) > 0; }
+    vk::DeviceSize list_bytes() const { return sizeof(shared::PenumbraList) + 4 * vk::DeviceSize{most}; }
+    vk::DeviceSize word_bytes() const { return 4 * vk::DeviceSize{most} * shared::penumbra_words(samples); }
+};
+
 ShadowStage::ShadowStage(const gpu::Device& device, const gpu::TextureTable& textures,
                          const engine::SceneRayTracer& tracer, Entries entries)
     : device_(device),
       tracer_(tracer),
       entries_(entries),
-      select_(device, "render/penumbras.comp", textures, sizeof(shared::ShadowPush)) {
+      select_(device, "render/penumbras.comp", textures, sizeof(shared::ShadowPush)),
+      cells_(device, "render/penumbra_cells.comp", textures, sizeof(shared::ShadowPush)),
+      sums_(device, "render/penumbra_sums.comp", textures, sizeof(shared::ShadowPush)) {
     static const std::vector<std::uint32_t> noise = make_blue_noise(shared::BLUE_NOISE_SIZE);
     gpu::Uploader uploader(device);
     noise_ = uploader.buffer("blue noise", gpu::range_bytes(noise));
@@ -36,7 +47,15 @@ Shadows ShadowStage::record(const gpu::Commands& cmd, const ShadowInput& input, 
                           settings.shadow_samples >= fewest_adaptive;
     grow(device_, visibility_, "light visibility", 4 * std::max<vk::DeviceSize>(lights * samples, 1));
     grow(device_, openness_, "openness", 4 * samples);
-    if (adaptive) grow(device_, penumbras_, "penumbras", 4 * (1 + lights * samples));
+    std::uint32_t largest_block = 0;
+    for (const SampleBlock& block : input.grid.blocks)
+        largest_block = std::max(largest_block, block.width * block.height);
+    const Penumbras penumbras{adaptive ? lights * largest_block : 0,
+                              static_cast<std::uint32_t>(settings.shadow_samples)};
+    if (adaptive) {
+        grow(device_, lists_, "penumbra lists", 3 * penumbras.list_bytes());
+        if (penumbras.in_cells()) grow(device_, words_, "penumbra cells", penumbras.word_bytes());
+    }
 
     shared::ShadowPush push{};
     push.surfaces = input.surfaces.surfaces;
@@ -44,7 +63,12 @@ Shadows ShadowStage::record(const gpu::Commands& cmd, const ShadowInput& input, 
     push.noise = noise_.address();
     push.visibility = visibility_.address();
     push.openness = openness_.address();
-    push.penumbras = adaptive ? penumbras_.address() : 0;
+    if (adaptive) {
+        push.found = lists_.address();
+        push.undecided = push.found + penumbras.list_bytes();
+        push.whole = push.undecided + penumbras.list_bytes();
+        if (penumbras.in_cells()) push.cells = words_.address();
+    }
     push.counters = input.counters;
     push.flags = (settings.shadows ? shared::LIGHTING_SHADOWS : 0u) |
                  (adaptive ? shared::LIGHTING_ADAPTIVE_SHADOWS : 0u);
@@ -62,20 +86,49 @@ Shadows ShadowStage::record(const gpu::Commands& cmd, const ShadowInput& input, 
         push.width = block.width;
         push.height = block.height;
         tracer_.trace(cmd, entries_.shadows, push, {block.width, block.height, 1});
-        if (!adaptive) continue;
-        // One block at a time: the list is as long as all of them could make it, but read per block.
-        cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
-        cmd.barrier(Access::RayTracingRead, Access::TransferWrite);
-        cmd->fillBuffer(penumbras_.vk(), 0, sizeof(std::uint32_t), 0);
-        cmd.barrier(Access::TransferWrite, Access::ComputeWrite);
-        select_.dispatch(cmd, push, {block.width, block.height, 1}, {8, 8, 1});
-        cmd.barrier(Access::ComputeWrite, Access::RayTracingRead);
-        cmd.barrier(Access::ComputeRead, Access::RayTracingWrite);
-        tracer_.trace(cmd, entries_.penumbras, push, {lights * block.width * block.height, 1, 1});
+        // One block at a time: the lists are as long as a block could make them.
+        if (adaptive) trace_penumbras(cmd, push, penumbras);
     }
     cmd.barrier(Access::RayTracingWrite, Access::RayTracingRead);
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     return {visibility_.address(), openness_.address(), lights};
+}
+
+void ShadowStage::trace_penumbras(const gpu::Commands& cmd, const shared::ShadowPush& push,
+                                  const Penumbras& penumbras) const {
+    using gpu::Access;
+    const std::uint32_t first = 1u << shared::penumbra_first_level(push.samples);
+    const vk::Extent3D groups{64, 1, 1}, places{push.light_count * push.width * push.height, 1, 1};
+    cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
+    cmd.barrier(Access::RayTracingWrite, Access::TransferWrite);
+    cmd.barrier(Access::IndirectRead, Access::TransferWrite);
+    for (const auto& [list, height] :
+         {std::pair{0u, first}, std::pair{1u, push.samples - first}, std::pair{2u, 1u}}) {
+        const std::array<shared::PenumbraList, 1> empty{{{0, height, 1, 0}}};
+        cmd->updateBuffer<shared::PenumbraList>(lists_.vk(), list * penumbras.list_bytes(), empty);
+    }
+    if (penumbras.in_cells()) cmd->fillBuffer(words_.vk(), 0, penumbras.word_bytes(), 0);
+    cmd.barrier(Access::TransferWrite, Access::ComputeWrite);
+    const auto compute_to_rays = [&] {
+        cmd.barrier(Access::ComputeWrite, Access::IndirectRead);
+        cmd.barrier(Access::ComputeWrite, Access::RayTracingWrite);
+    };
+
+    select_.dispatch(cmd, push, {push.width, push.height, 1}, {8, 8, 1});
+    compute_to_rays();
+    if (penumbras.in_cells()) {
+        tracer_.trace_indirect(cmd, entries_.penumbra_rays, push, push.found);
+        cmd.barrier(Access::RayTracingWrite, Access::ComputeWrite);
+        cells_.dispatch(cmd, push, places, groups);
+        compute_to_rays();
+        shared::ShadowPush later = push;
+        later.flags |= shared::SHADOWS_LATER_SAMPLES;
+        tracer_.trace_indirect(cmd, entries_.penumbra_rays, later, push.undecided);
+        cmd.barrier(Access::RayTracingWrite, Access::ComputeWrite);
+        sums_.dispatch(cmd, push, places, groups);
+        compute_to_rays();
+    }
+    tracer_.trace_indirect(cmd, entries_.penumbras, push, push.whole);
 }
 
 }  // namespace foveray::render

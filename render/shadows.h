@@ -6,6 +6,10 @@
 #include "render/primary.h"
 #include "render/sampling.h"
 
+namespace foveray::shared {
+struct ShadowPush;
+}
+
 namespace foveray::render {
 
 /// What reaches each primary surface of the first lights and of the light from all round.
@@ -25,13 +29,15 @@ struct ShadowInput {
 };
 
 /// Traces the shadows of primary surfaces. From 16 samples a light on it looks first with a few, and takes
-/// all only where they, or those of neighbours, disagree: in penumbras. Those are gathered in a list, so that
-/// the rays of a penumbra run side by side.
+/// more only where they, or those of neighbours, disagree: in penumbras. Those are gathered in a list, so
+/// that the rays of penumbras run side by side. Of 64 or 256 samples a part is taken first there, and the
+/// rest only next to where neighbouring parts of the light are seen differently (after Whitted 1980, section
+/// 4: what its antialiasing does for pixels).
 class ShadowStage {
   public:
     struct Entries {
-        engine::RayGeneration shadows,
-            penumbras;  // the tracer's for "render/shadows.rgen", "render/penumbras.rgen"
+        // The tracer's for "render/shadows.rgen", "render/penumbras.rgen", "render/penumbra_rays.rgen".
+        engine::RayGeneration shadows, penumbras, penumbra_rays;
     };
     ShadowStage(const gpu::Device& device, const gpu::TextureTable& textures,
                 const engine::SceneRayTracer& tracer, Entries entries);
@@ -45,8 +51,12 @@ class ShadowStage {
     const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     Entries entries_;
-    gpu::ComputePipeline select_;
-    gpu::Buffer noise_, visibility_, openness_, penumbras_;
+    struct Penumbras;  // where their lists lie
+    void trace_penumbras(const gpu::Commands& cmd, const shared::ShadowPush& push,
+                         const Penumbras& penumbras) const;
+
+    gpu::ComputePipeline select_, cells_, sums_;
+    gpu::Buffer noise_, visibility_, openness_, lists_, words_;
 };
 
 }  // namespace foveray::render

@@ -67,6 +67,15 @@ class RayTracer {
         tracer_.trace(cmd, ray_generation.index, gpu::bytes_of(push), rays);
     }
 
+    /// The same for as many rays as stand at the address, in a buffer: VkTraceRaysIndirectCommandKHR
+    /// (Access::IndirectRead). A size of 0 is allowed.
+    template <class Push>
+    void trace_indirect(const gpu::Commands& cmd, RayGeneration ray_generation, const Push& push,
+                        vk::DeviceAddress rays) const {
+        static_assert(sizeof(Push) <= gpu::RayTracingPipeline::push_size && sizeof(Push) % 4 == 0);
+        tracer_.trace_indirect(cmd, ray_generation.index, gpu::bytes_of(push), rays);
+    }
+
     const TableLayout& layout() const { return tracer_.layout(); }
 
     /// What a ray of that type finds at a geometry of an instance with that record offset: the entry of the

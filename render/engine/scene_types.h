@@ -25,8 +25,8 @@ namespace foveray::engine {
 template <template <std::uint32_t, class...> class Of>
 using WithSceneRecords = Of<shared::RAY_TYPE_COUNT, shared::TriangleRecord, shared::CatcherRecord,
                             shared::SphereRecord, shared::BoxRecord, shared::OrientedBoxRecord,
-                            shared::PlaneRecord, shared::CsgRecord, shared::UserRecord, shared::VoxelRecord, shared::JuliaRecord,
-                            shared::MandelbulbRecord, shared::BlendRecord>;
+                            shared::PlaneRecord, shared::CsgRecord, shared::UserRecord, shared::VoxelRecord,
+                            shared::JuliaRecord, shared::MandelbulbRecord, shared::BlendRecord>;
 using SceneProgram = WithSceneRecords<Program>;
 using SceneRayTracer = WithSceneRecords<RayTracer>;
 

@@ -91,11 +91,10 @@ void TableTracer::prepare(const gpu::Commands& cmd, std::uint32_t slot_index, co
     slot.version = version_;
 }
 
-void TableTracer::trace(const gpu::Commands& cmd, std::uint32_t ray_generation,
-                        std::span<const std::byte> push, vk::Extent3D rays) const {
+TableTracer::Regions TableTracer::bind(const gpu::Commands& cmd, std::uint32_t ray_generation,
+                                       std::span<const std::byte> push) const {
     const Slot& slot = slots_[current_];
     assert(slot.version == version_ && ray_generation < counts_.ray_generation);
-    if (rays.width == 0 || rays.height == 0 || rays.depth == 0) return;
     const std::array sets = {textures_, *slot.set};
     constexpr auto point = vk::PipelineBindPoint::eRayTracingKHR;
     cmd->bindPipeline(point, pipeline_.vk());
@@ -108,8 +107,24 @@ void TableTracer::trace(const gpu::Commands& cmd, std::uint32_t ray_generation,
     };
     const auto whole = [&](const TableRegion& r) { return region(r.offset, r.stride, r.size()); };
     const TableRegion& generation = layout_.ray_generation;
-    cmd->traceRaysKHR(region(generation.record(ray_generation), generation.stride, generation.stride),
-                      whole(layout_.miss), whole(layout_.hit), {}, rays.width, rays.height, rays.depth);
+    return {region(generation.record(ray_generation), generation.stride, generation.stride),
+            whole(layout_.miss),
+            whole(layout_.hit),
+            {}};
+}
+
+void TableTracer::trace(const gpu::Commands& cmd, std::uint32_t ray_generation,
+                        std::span<const std::byte> push, vk::Extent3D rays) const {
+    if (rays.width == 0 || rays.height == 0 || rays.depth == 0) return;
+    const Regions table = bind(cmd, ray_generation, push);
+    cmd->traceRaysKHR(table.generation, table.miss, table.hit, table.callable, rays.width, rays.height,
+                      rays.depth);
+}
+
+void TableTracer::trace_indirect(const gpu::Commands& cmd, std::uint32_t ray_generation,
+                                 std::span<const std::byte> push, vk::DeviceAddress rays) const {
+    const Regions table = bind(cmd, ray_generation, push);
+    cmd->traceRaysIndirectKHR(table.generation, table.miss, table.hit, table.callable, rays);
 }
 
 }  // namespace foveray::engine

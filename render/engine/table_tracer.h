@@ -27,10 +27,19 @@ class TableTracer {
     void prepare(const gpu::Commands& cmd, std::uint32_t slot, const gpu::TopLevel& scene);
     void trace(const gpu::Commands& cmd, std::uint32_t ray_generation, std::span<const std::byte> push,
                vk::Extent3D rays) const;
+    void trace_indirect(const gpu::Commands& cmd, std::uint32_t ray_generation,
+                        std::span<const std::byte> push, vk::DeviceAddress rays) const;
 
     const TableLayout& layout() const { return layout_; }
 
   private:
+    /// The regions of the slot's table, in traceRaysKHR's order.
+    struct Regions {
+        vk::StridedDeviceAddressRegionKHR generation, miss, hit, callable;
+    };
+    Regions bind(const gpu::Commands& cmd, std::uint32_t ray_generation,
+                 std::span<const std::byte> push) const;
+
     struct Slot {
         vk::raii::DescriptorSet set = nullptr;
         gpu::Buffer staging, table;

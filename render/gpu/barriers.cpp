@@ -31,6 +31,8 @@ AccessScope scope_of(Access access) {
                     Flag::eAccelerationStructureReadKHR | Flag::eAccelerationStructureWriteKHR};
         case Access::AccelerationBuildRead:
             return {Stage::eAccelerationStructureBuildKHR, Flag::eAccelerationStructureReadKHR};
+        case Access::IndirectRead:
+            return {Stage::eDrawIndirect, Flag::eIndirectCommandRead};
         case Access::FragmentSampledRead:
             return {Stage::eFragmentShader, Flag::eShaderRead};
         case Access::ColorAttachment:

@@ -18,6 +18,7 @@ enum class Access {
     AccelerationBuildInput,  // vertices, indices, instances read by a build
     AccelerationBuildWrite,  // the structure and its scratch memory
     AccelerationBuildRead,   // a structure that a build, copy or query reads
+    IndirectRead,           // sizes of a launch
     FragmentSampledRead,
     ColorAttachment,
     DepthAttachment,

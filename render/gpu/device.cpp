@@ -51,6 +51,7 @@ constexpr std::array needed_features = {
     FOVERAY_FEATURE(vk::PhysicalDeviceVulkan13Features, maintenance4),
     FOVERAY_FEATURE(vk::PhysicalDeviceAccelerationStructureFeaturesKHR, accelerationStructure),
     FOVERAY_FEATURE(vk::PhysicalDeviceRayTracingPipelineFeaturesKHR, rayTracingPipeline),
+    FOVERAY_FEATURE(vk::PhysicalDeviceRayTracingPipelineFeaturesKHR, rayTracingPipelineTraceRaysIndirect),
 };
 #undef FOVERAY_FEATURE
 

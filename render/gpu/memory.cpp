@@ -42,7 +42,7 @@ Buffer::Buffer(const Device& device, const std::string& name, vk::DeviceSize siz
     : allocator_(device.allocator()), size_(std::max<vk::DeviceSize>(size, 16)) {
     using Usage = vk::BufferUsageFlagBits;
     const vk::BufferCreateInfo info({}, size_,
-                                    Usage::eStorageBuffer | Usage::eShaderDeviceAddress |
+                                    Usage::eStorageBuffer | Usage::eShaderDeviceAddress | Usage::eIndirectBuffer |
                                         Usage::eTransferSrc | Usage::eTransferDst | extra);
     const VmaAllocationCreateInfo allocation = allocation_info(residence);
     VkBuffer buffer = VK_NULL_HANDLE;

@@ -1,75 +1,59 @@
-// All samples of an area light's visibility, for fewer rays: where neighbouring parts of the light are seen alike, what
-// lies between is taken to be seen alike too. The including shader has `push` with `flags`.
+// Surfaces that may lie in a light's penumbra, and the lists of them. The including shader has `push` (ShadowPush).
 #ifndef FOVERAY_RENDER_PENUMBRA_GLSL
 #define FOVERAY_RENDER_PENUMBRA_GLSL
 
-#include "shaders/render/light_visibility.glsl"
+#include "shaders/render/area_light.glsl"
+#include "shaders/render/low_discrepancy.glsl"
+#include "shaders/render/shadows.glsl"
+#include "shaders/render/still_noise.glsl"
 
-// Cells of the light's square, a bit each, in rows of eight: 2^m of them, with more columns than rows where m is odd.
-uint64_t cell_bit(uvec2 point, uint m) {
-    uint column = point.x >> (32 - (m + 1) / 2), row = point.y >> (32 - m / 2);
-    return 1ul << (8 * row + column);
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PenumbraEntries {
+    PenumbraList list;
+    uint at[];
+};
+
+struct Penumbra {
+    uint index;  // of the sample
+    Surface surface;
+    AreaLight area;
+    vec2 turn;
+};
+
+Light light_of_entry(uint entry) { return LightArray(SceneDataArray(push.scene).at[0].lights).at[entry / push.sample_count]; }
+
+// `entry`: light * sample_count + sample.
+Penumbra penumbra_at(uint entry) {
+    Penumbra p;
+    p.index = entry % push.sample_count;
+    uint light = entry / push.sample_count, in_block = p.index - push.first_sample;
+    vec2 turn = still_noise(push.noise, uvec2(in_block % push.width, in_block / push.width), 0, push.sub_sample);
+    p.turn = evenly_spread(turn, 7 * light);
+    p.surface = SurfaceArray(push.surfaces).at[p.index];
+    p.area = area_light_at(light_of_entry(entry), p.surface.position, p.surface.normal);
+    return p;
 }
 
-uint64_t with_columns(uint64_t cells) {
-    return cells | ((cells << 1) & 0xFEFEFEFEFEFEFEFEul) | ((cells >> 1) & 0x7F7F7F7F7F7F7F7Ful);
+vec3 penumbra_point(Penumbra p, uint i, out float weight) {
+    return area_light_point(p.area, p.surface.position, p.surface.normal, net_point(i, push.samples, p.turn), weight);
 }
 
-uint64_t with_neighbours(uint64_t cells, uint m) {
-    cells = with_columns(cells);
-    if (m == 5) cells = with_columns(cells);
-    return cells | (cells << 8) | (cells >> 8);
-}
+uint first_samples() { return 1u << penumbra_first_level(push.samples); }
 
-// Columns of eight that two faces of a box have a part in.
-uint64_t columns_across_faces(AreaLight area) {
-    uvec2 column = min(uvec2(area.face_end.xy * 8.0), uvec2(7));
-    return (0x0101010101010101ul << column.x) | (0x0101010101010101ul << column.y);
-}
+FOVERAY_ARRAY(PenumbraWords, uint);
 
-// As area_light_visibility. The light's square is looked at in 8 by 4 cells, then in 8 by 8, then in a cell a sample, but
-// only next to where those before disagree.
-vec3 penumbra_visibility(AreaLight area, Surface surface, vec2 turn, uint samples, bool mixed) {
-    if (samples != 64 && samples != 256) return area_light_visibility(area, surface, turn, samples);
-    uint64_t lit = 0ul, undecided = 0ul;  // of the cells before
-    uint before = 0, m = samples == 64 ? 5 : 6;
-    while (true) {
-        bool last = 1u << m == samples;
-        uint64_t now_lit = 0ul, now_dark = 0ul;
-        float arrived = 0.0, sent = 0.0;
-        for (uint i = 0; i < 1u << m; ++i) {
-            float weight;
-            vec3 target = area_light_point(area, surface.position, surface.normal, net_point(i, samples, turn), weight);
-            if (weight == 0.0) continue;
-            uvec2 point = net_bits(i);
-            uint64_t parent = cell_bit(point, before);
-            bool open = (lit & parent) != 0;
-            if (before == 0 || (i >= 1u << before && (undecided & parent) != 0)) {
-                vec3 through = light_through(surface, target);
-                if (through != vec3(0.0) && through != vec3(1.0)) {
-                    return area_light_visibility(area, surface, turn, samples);  // seen through something coloured
-                }
-                open = through.r > 0.0;
-            }
-            sent += weight;
-            if (open) arrived += weight;
-            if (last) continue;
-            uint64_t here = cell_bit(point, m);
-            if (open) {
-                now_lit |= here;
-            } else {
-                now_dark |= here;
-            }
-        }
-        bool agree = now_lit == 0ul || now_dark == 0ul;
-        if (last || (agree && !mixed)) return vec3(sent > 0.0 ? arrived / sent : 1.0);
-        undecided = ~(now_lit | now_dark) | (with_neighbours(now_lit, m) & with_neighbours(now_dark, m));
-        if (area.light.type == LIGHT_BOX) undecided |= columns_across_faces(area);
-        if (agree) undecided = ~0ul;
-        lit = now_lit;
-        before = m;
-        m = m == 5 ? 6 : 8;
-    }
+// Of a place in the list of those found.
+uint flags_word(uint place) { return place * penumbra_words(push.samples); }
+uint lit_word(uint place, uint i) { return flags_word(place) + 1 + i / 32; }
+uint wanted_word(uint place, uint i) { return lit_word(place, push.samples) + (i - first_samples()) / 32; }
+
+bool has_bit(uint word, uint i) { return (PenumbraWords(push.cells).at[word] >> (i % 32) & 1) != 0; }
+
+// Cells of the light's square, a bit each, in rows of eight: as many as first samples, with more columns than rows where
+// that is no square number.
+uint64_t cell_of(uint i) {
+    uint level = penumbra_first_level(push.samples);
+    uvec2 point = net_bits(i);
+    return 1ul << (8 * (point.y >> (32 - level / 2)) + (point.x >> (32 - (level + 1) / 2)));
 }
 
 #endif

@@ -6,13 +6,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Finds the surfaces that may lie in a light's penumbra: the first look was undecided, there or next to it, or found
-// something else next to it. Their order in the list depends on chance, what becomes of each does not.
+// something else next to it.
 #include "shaders/shared/shadows.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { ShadowPush push; };
 
-#include "shaders/render/shadows.glsl"
+#include "shaders/render/penumbra_lists.glsl"
 
 // Neighbours to each side that are asked: what is thinner than the light is met by some of them.
 const int REACH = 1;
@@ -40,14 +40,10 @@ void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
     bool inside = place.x < int(push.width) && place.y < int(push.height);
     uint index = push.first_sample + uint(place.y) * push.width + uint(place.x);
-    PenumbraArray penumbras = PenumbraArray(push.penumbras);
+    uint64_t list = penumbra_first_level(push.samples) == 0 ? push.whole : push.found;
     for (uint light = 0; light < push.light_count; ++light) {
         uint entry = light * push.sample_count + index;
-        bool found = inside && in_penumbra(place, light, VisibilityArray(push.visibility).at[entry]);
-        uvec4 ballot = subgroupBallot(found);
-        uint first = 0;
-        if (subgroupElect()) first = atomicAdd(penumbras.at[0], subgroupBallotBitCount(ballot));
-        first = subgroupBroadcastFirst(first);
-        if (found) penumbras.at[1 + first + subgroupBallotExclusiveBitCount(ballot)] = entry;
+        if (!is_area_light(light_of_entry(entry))) continue;
+        append(list, inside && in_penumbra(place, light, VisibilityArray(push.visibility).at[entry]), entry);
     }
 }

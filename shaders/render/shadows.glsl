@@ -10,6 +10,5 @@
 
 FOVERAY_ARRAY(VisibilityArray, uint);
 FOVERAY_ARRAY(OpennessArray, float);
-FOVERAY_ARRAY(PenumbraArray, uint);
 
 #endif

@@ -33,6 +33,7 @@ TEST(Barriers, EveryAccessHasItsStagesAndAccess) {
           Flag::eAccelerationStructureReadKHR | Flag::eAccelerationStructureWriteKHR}},
         {Access::AccelerationBuildRead,
          {Stage::eAccelerationStructureBuildKHR, Flag::eAccelerationStructureReadKHR}},
+        {Access::IndirectRead, {Stage::eDrawIndirect, Flag::eIndirectCommandRead}},
         {Access::FragmentSampledRead, {Stage::eFragmentShader, Flag::eShaderRead}},
         {Access::ColorAttachment,
          {Stage::eColorAttachmentOutput, Flag::eColorAttachmentRead | Flag::eColorAttachmentWrite}},
