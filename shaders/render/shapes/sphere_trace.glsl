@@ -76,6 +76,12 @@ bool sphere_trace(Span span) {
             slope = SURELY_SAFE;
             continue;
         }
+        if (armed && side * distance < -threshold && step_length > threshold) {  // went through the surface: halved
+            step_length *= 0.5;
+            way -= step_length;
+            slope = SURELY_SAFE;
+            continue;
+        }
         slope = armed && step_length > 0.0
                     ? min(mix(slope, (side * distance - radius) / step_length, SLOPE_MEMORY), STEEPEST_SLOPE)
                     : SURELY_SAFE;

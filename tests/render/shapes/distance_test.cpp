@@ -1,8 +1,9 @@
-// Julia sets, Mandelbulbs and blends: rays against a slow march through the sets themselves.
+// Julia sets, Mandelbulbs, blends and a user's shape: rays against a slow march through the sets themselves.
 #include <cmath>
 
 #include "render/reference/march.h"
 #include "render/scene/scene_builder.h"
+#include "render/user_shapes/compile.h"
 #include "tests/fakes/gpu_fixture.h"
 #include "tests/fakes/random.h"
 #include "tests/render/shapes/ray_rig.h"
@@ -12,8 +13,9 @@ namespace {
 
 using scene::ShapeKind;
 
-constexpr float apart = 30.0f;      // metres between the shapes, along x
-constexpr float threshold = 0.25f;  // of a cone's width, at which a surface counts as hit
+constexpr float apart = 12.0f;              // metres between the shapes
+constexpr float threshold = 0.25f;          // of a cone's width, at which a surface counts as hit
+constexpr std::size_t transform_count = 4;  // of each example
 
 std::vector<scene::BlendPart> parts() {
     std::vector<scene::BlendPart> result(5);
@@ -51,53 +53,94 @@ const std::vector<Example>& examples() {
         {"mandelbulb 3", ShapeKind::Mandelbulb, {3, 5, 1, 1, 1}, true},
         {"blend", ShapeKind::Blend, {0.1f}, false},
         {"blend sharp", ShapeKind::Blend, {0.0f}, false},
+        {"user's", ShapeKind::User, {0.6f, 0.3f, 0.4f, 0.1f}, false},
     };
     return list;
+}
+
+/// A rounded box with a bite taken out of it, as a user writes it.
+constexpr const char* bitten_box = R"(
+float distance_at(vec3 p, vec3 half_size, float rounding) {
+    vec3 q = abs(p) - half_size;
+    float box = length(max(q, 0.0)) + min(max(q.x, max(q.y, q.z)), 0.0) - rounding;
+    return max(box, 0.45 - distance(p, vec3(0.5, 0.4, 0.3)));
+}
+)";
+
+reference::Field bitten_box_field(const std::vector<float>& values) {
+    const dvec3 half_size(values[0], values[1], values[2]);
+    const double rounding = values[3];
+    return [=](const dvec3& p) {
+        const dvec3 q = glm::abs(p) - half_size;
+        const double box =
+            glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - rounding;
+        return std::max(box, 0.45 - glm::distance(p, dvec3(0.5, 0.4, 0.3)));
+    };
 }
 
 reference::Field field_of(const Example& example) {
     if (example.kind == ShapeKind::Julia) return reference::field_of(scene::Julia(example.values));
     if (example.kind == ShapeKind::Mandelbulb) return reference::field_of(scene::Mandelbulb(example.values));
+    if (example.kind == ShapeKind::User) return bitten_box_field(example.values);
     return reference::field_of(parts(), example.values[0]);
 }
 
-reference::IsInside inside_of(const Example& example) { return reference::inside_of(field_of(example)); }
+/// The middle of an example's `which`-th transform. Instances count the same way: transforms fastest.
+vec3 middle_of(std::size_t example, std::size_t which) {
+    return apart * vec3(static_cast<float>(example) - 3.5f, 0.0f, static_cast<float>(which) - 1.5f);
+}
 
-/// Each example once, turned and unevenly scaled, in a row along x.
-scene::Scene row_of_examples() {
+/// Each example in a row along x, each in several random transforms: turned and unevenly scaled, mirrored,
+/// sheared, and both.
+scene::Scene examples_in_transforms() {
     fakes::Random random(11);
     scene::SceneBuilder builder;
     scene::Material material;
     material.base_color = {1, 1, 1, 1};
     material.double_sided = true;
     const scene::MaterialId id = builder.add(material);
-    for (std::size_t i = 0; i < examples().size(); ++i) {
+    const scene::UserShapeId user = builder.add(
+        {scene::parse_user_shape("bitten_box.glsl", bitten_box), {{"half_size", 3}, {"rounding", 1}}});
+    for (std::size_t e = 0; e < examples().size(); ++e) {
         scene::Shape shape;
-        shape.kind = examples()[i].kind;
-        shape.values = examples()[i].values;
+        shape.kind = examples()[e].kind;
+        shape.values = examples()[e].values;
         shape.material = id;
         if (shape.kind == ShapeKind::Blend) shape.blend_parts = parts();
-        scene::Node node;
-        node.local.translation = {apart * static_cast<float>(i), 0, 0};
-        node.local.rotation = random.rotation();
-        node.local.scale = random.vector(0.5f, 1.6f);
-        node.shape = builder.add(std::move(shape));
-        builder.add(std::move(node));
+        if (shape.kind == ShapeKind::User) {
+            shape.user = user;
+            shape.user_bounds = {vec3(-0.75f), vec3(0.75f)};
+        }
+        const scene::ShapeId shape_id = builder.add(std::move(shape));
+        for (std::size_t k = 0; k < transform_count; ++k) {
+            const bool mirrored = k % 2 == 1, sheared = k >= 2;
+            scene::Node parent;
+            parent.local.translation = middle_of(e, k);
+            parent.local.rotation = random.rotation();
+            if (sheared) parent.local.scale = random.vector(0.7f, 1.3f);
+            scene::Node child;
+            child.parent = builder.add(std::move(parent));
+            child.local.rotation = random.rotation();
+            child.local.scale = random.vector(0.6f, 1.4f);
+            if (mirrored) child.local.scale[static_cast<int>(random.below(3))] *= -1.0f;
+            child.shape = shape_id;
+            builder.add(std::move(child));
+        }
     }
     return std::move(builder).build();
 }
 
-/// Rays towards the example's middle from about 5 m away, or from within its bounds.
-std::vector<shared::TestRay> rays_to(std::size_t example, std::size_t count, float spread, bool within) {
-    fakes::Random random(static_cast<std::uint32_t>(100 + example));
-    const vec3 center(apart * static_cast<float>(example), 0, 0);
+/// Rays towards a middle from about 5 m away, or from near it.
+std::vector<shared::TestRay> rays_to(const vec3& middle, std::uint32_t seed, std::size_t count, float spread,
+                                     bool within) {
+    fakes::Random random(seed);
     std::vector<shared::TestRay> rays;
     for (std::size_t i = 0; i < count; ++i) {
         shared::TestRay ray{};
-        ray.origin = within ? center + random.vector(-0.3f, 0.3f) : center + 5.0f * random.direction();
+        ray.origin = middle + (within ? random.vector(-0.3f, 0.3f) : 5.0f * random.direction());
         ray.direction =
-            within ? random.direction() : glm::normalize(center + random.vector(-0.8f, 0.8f) - ray.origin);
-        ray.t_max = ray.shadow_t_max = 12.0f;
+            within ? random.direction() : glm::normalize(middle + random.vector(-0.8f, 0.8f) - ray.origin);
+        ray.t_max = ray.shadow_t_max = 8.5f;  // ends before the next shape
         ray.cone = {0.0f, spread};
         rays.push_back(ray);
     }
@@ -123,11 +166,47 @@ double least_object_length(const mat4& world_from_object) {
     return least;
 }
 
+/// The normal that a hit ought to have, by differences: gradients transform by the inverse transpose.
+vec3 expected_normal(const Example& example, const dvec3& p, double near, const mat4& world_from_object) {
+    reference::Field field = field_of(example);
+    if (example.kind == ShapeKind::Julia) {
+        // The surface is the set's or the cut's: their levels cannot be compared.
+        scene::Julia julia(example.values);
+        const vec3 cut = julia.cut_normal;
+        const bool on_cut = std::abs(glm::dot(dvec3(cut), p) - double{julia.cut_offset}) < near;
+        if (cut != vec3(0.0f) && on_cut) {
+            field = [cut](const dvec3& q) { return glm::dot(dvec3(cut), q); };
+        } else {
+            julia.cut_normal = vec3(0.0f);
+            field = reference::field_of(julia);
+        }
+    }
+    const double width = example.estimated ? 1e-7 : near;
+    dvec3 slope(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        dvec3 step(0.0);
+        step[axis] = width;
+        slope[axis] = field(p + step) - field(p - step);
+    }
+    const glm::dmat3 linear(glm::dmat4{world_from_object});
+    return vec3(glm::normalize(glm::transpose(glm::inverse(linear)) * slope));
+}
+
+/// A Mandelbulb's normals are differences of its estimate as wide as the threshold, over which the set is
+/// rough: most are within 26 degrees. Those of the others are off only at edges narrower than the cone.
+bool is_near(const Example& example, vec3 normal, vec3 expected) {
+    return glm::dot(normal, expected) > (example.kind == ShapeKind::Mandelbulb ? 0.9f : 0.99f);
+}
+
+int allowed_normals(const Example& example, int hits) {
+    return hits / (example.kind == ShapeKind::Mandelbulb ? 7 : 10);
+}
+
 class DistanceShapes : public fakes::GpuTest {
   protected:
     static void SetUpTestSuite() {
-        scene_ = new scene::Scene(row_of_examples());
-        rig_ = new RayRig(device(), *scene_);
+        scene_ = new scene::Scene(examples_in_transforms());
+        rig_ = new RayRig(device(), *scene_, {user_shapes::compile(scene_->user_shapes[0])});
     }
     static void TearDownTestSuite() {
         delete rig_;
@@ -138,86 +217,120 @@ class DistanceShapes : public fakes::GpuTest {
     static inline RayRig* rig_ = nullptr;
 };
 
-TEST_F(DistanceShapes, RaysFromOutsideStopAtTheSet) {
-    for (const float spread : {5e-4f, 2e-2f}) {
-        for (std::size_t e = 0; e < examples().size(); ++e) {
-            SCOPED_TRACE(std::string(examples()[e].name) + " spread " + std::to_string(spread));
-            const std::vector<shared::TestRay> rays = rays_to(e, 150, spread, false);
-            const auto answers = rig_->answers(0, rays);
-            const mat4 world_from_object = rig_->changes().shape_instances[e].world_from_object;
-            const double object_length = least_object_length(world_from_object);
-            const reference::IsInside inside = inside_of(examples()[e]);
-            int hits = 0, beyond = 0, off = 0;
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                reference::Ray ray = in_object(rays[i], world_from_object);
-                ray.nearest = 2.0, ray.farthest = 8.0;  // the shape is within 3 m of its middle
-                const double rate = glm::length(ray.direction);
-                const shared::Surface& s = answers[i].surface;
-                const auto truth = reference::first_side_change(ray, inside, 2e-3 / rate);
-                const bool hit = s.kind == shared::SURFACE_VIRTUAL;
-                EXPECT_EQ(hit, answers[i].transmittance == vec3(0.0f)) << i;
-                // What is thicker than the cone must not be passed.
-                const auto is_thick = [&] {
-                    const double behind = truth->distance + double{spread} * truth->distance;
-                    return inside(ray.origin + behind * ray.direction);
-                };
-                if (truth && (!hit || s.distance > truth->distance + 1e-4) && is_thick()) ++beyond;
-                if (!hit) continue;
-                ++hits;
-                EXPECT_EQ(s.instance, e);
-                EXPECT_EQ(s.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
-                EXPECT_TRUE(std::isfinite(s.normal.x + s.normal.y + s.normal.z + s.position.x));
-                EXPECT_NEAR(glm::length(s.normal), 1.0f, 1e-4f);
-                const double width = double{spread} * double{s.distance};
-                const double near =
-                    1.02 * threshold * width * object_length + 2e-4;  // and 120 m from the origin
+/// How far the surface may be from a hit in object space: the sphere tracing's threshold, and rounding.
+double nearness(const shared::TestRay& ray, float distance, double object_length) {
+    return 1.02 * threshold * double{ray.cone.spread} * double{distance} * object_length + 2e-4;
+}
 
-                const dvec3 p = ray.origin + double{s.distance} * ray.direction;
-                if (examples()[e].kind == ShapeKind::Blend) {
-                    EXPECT_LE(field_of(examples()[e])(p), near);
-                } else if (!reference::has_both_sides(inside, p, 8.0 * near, 4000)) {
-                    ++off;
+TEST_F(DistanceShapes, RaysFromOutsideStopAtTheSet) {
+    for (std::size_t e = 0; e < examples().size(); ++e) {
+        const bool exact = !examples()[e].estimated;
+        const reference::Field field = field_of(examples()[e]);
+        const reference::IsInside inside = reference::inside_of(field);
+        for (const float spread : {5e-4f, 2e-2f}) {
+            int hits = 0, beyond = 0, off = 0, other_normal = 0;
+            for (std::size_t k = 0; k < transform_count; ++k) {
+                const std::size_t instance = e * transform_count + k;
+                SCOPED_TRACE(std::string(examples()[e].name) + " transform " + std::to_string(k) +
+                             " spread " + std::to_string(spread));
+                const auto rays =
+                    rays_to(middle_of(e, k), static_cast<std::uint32_t>(100 + instance), 80, spread, false);
+                const auto answers = rig_->answers(0, rays);
+                const mat4 world_from_object = rig_->changes().shape_instances[instance].world_from_object;
+                EXPECT_EQ(glm::determinant(world_from_object) < 0.0f, k % 2 == 1);
+                const double object_length = least_object_length(world_from_object);
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    reference::Ray ray = in_object(rays[i], world_from_object);
+                    ray.nearest = 2.0, ray.farthest = 8.0;  // the shape is within 3 m of its middle
+                    const double rate = glm::length(ray.direction);
+                    const shared::Surface& s = answers[i].surface;
+                    const auto truth = reference::first_side_change(ray, inside, 2e-3 / rate);
+                    const bool hit = s.kind == shared::SURFACE_VIRTUAL;
+                    EXPECT_EQ(hit, answers[i].transmittance == vec3(0.0f)) << i;
+                    // What is thicker than the cone must not be passed.
+                    const auto is_thick = [&] {
+                        const double behind = truth->distance + double{spread} * truth->distance;
+                        return inside(ray.origin + behind * ray.direction);
+                    };
+                    if (truth && (!hit || s.distance > truth->distance + 1e-4) && is_thick()) ++beyond;
+                    if (!hit) continue;
+                    ++hits;
+                    EXPECT_EQ(s.instance, instance);
+                    EXPECT_EQ(s.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
+                    EXPECT_TRUE(std::isfinite(s.normal.x + s.normal.y + s.normal.z + s.position.x));
+                    EXPECT_NEAR(glm::length(s.normal), 1.0f, 1e-4f);
+                    const double near = nearness(rays[i], s.distance, object_length);
+                    const dvec3 p = ray.origin + double{s.distance} * ray.direction;
+                    if (exact) {
+                        EXPECT_LE(field(p), near);
+                    } else if (!reference::has_both_sides(inside, p, 8.0 * near, 4000)) {
+                        ++off;
+                    }
+                    const vec3 normal = expected_normal(examples()[e], p, near, world_from_object);
+                    other_normal += !is_near(examples()[e], s.geometric_normal, normal);
                 }
             }
-            EXPECT_GT(hits, 40);
-            EXPECT_LE(beyond, examples()[e].kind == ShapeKind::Mandelbulb ? 2 : 0);
+            SCOPED_TRACE(std::string(examples()[e].name) + " spread " + std::to_string(spread));
+            EXPECT_GT(hits, 100);
+            EXPECT_LE(beyond, examples()[e].kind == ShapeKind::Mandelbulb ? 4 : 0);
             EXPECT_LE(off, hits / 20);
+            EXPECT_LE(other_normal, allowed_normals(examples()[e], hits));
         }
     }
 }
 
 TEST_F(DistanceShapes, RaysFromInsideStopWhereTheyLeave) {
+    constexpr float spread = 5e-4f;
     for (std::size_t e = 0; e < examples().size(); ++e) {
         SCOPED_TRACE(examples()[e].name);
-        const std::vector<shared::TestRay> rays = rays_to(e, 300, 5e-4f, true);
-        const auto answers = rig_->answers(0, rays);
-        const mat4 world_from_object = rig_->changes().shape_instances[e].world_from_object;
-        const reference::IsInside inside = inside_of(examples()[e]);
-        int from_inside = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const reference::Ray ray = in_object(rays[i], world_from_object);
-            const shared::Surface& s = answers[i].surface;
-            if (!inside(ray.origin)) continue;
-            ++from_inside;
-            EXPECT_EQ(s.kind, shared::SURFACE_VIRTUAL);
-            EXPECT_EQ(answers[i].transmittance, vec3(0.0f));
-            if (examples()[e].kind != ShapeKind::Blend) continue;
-            EXPECT_NE(s.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
-            const dvec3 p = ray.origin + double{s.distance} * ray.direction;
-            EXPECT_NEAR(field_of(examples()[e])(p), 0.0, 1e-3);
-            const auto truth = reference::first_side_change(ray, inside, 1e-3);
-            ASSERT_TRUE(truth.has_value());
-            EXPECT_LE(s.distance, truth->distance + 1e-4);
+        const bool exact = !examples()[e].estimated;
+        const reference::Field field = field_of(examples()[e]);
+        const reference::IsInside inside = reference::inside_of(field);
+        int from_inside = 0, off = 0, early = 0, late = 0, other_normal = 0;
+        for (std::size_t k = 0; k < transform_count; ++k) {
+            const std::size_t instance = e * transform_count + k;
+            const auto rays =
+                rays_to(middle_of(e, k), static_cast<std::uint32_t>(100 + instance), 80, spread, true);
+            const auto answers = rig_->answers(0, rays);
+            const mat4 world_from_object = rig_->changes().shape_instances[instance].world_from_object;
+            const double object_length = least_object_length(world_from_object);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const reference::Ray ray = in_object(rays[i], world_from_object);
+                const shared::Surface& s = answers[i].surface;
+                if (!inside(ray.origin)) continue;
+                ++from_inside;
+                EXPECT_EQ(s.kind, shared::SURFACE_VIRTUAL);
+                EXPECT_EQ(answers[i].transmittance, vec3(0.0f));
+                EXPECT_EQ(s.instance, instance);
+                const auto truth = reference::first_side_change(ray, inside, 1e-3);
+                ASSERT_TRUE(truth.has_value());
+                const double near = nearness(rays[i], s.distance, object_length);
+                const dvec3 p = ray.origin + double{s.distance} * ray.direction;
+                early += s.distance < truth->distance - 1e-2;
+                late += s.distance > truth->distance + 1e-4;
+                const vec3 normal = expected_normal(examples()[e], p, near, world_from_object);
+                other_normal += !is_near(examples()[e], s.geometric_normal, -normal);
+                EXPECT_NE(s.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
+                if (exact) {
+                    EXPECT_NEAR(field(p), 0.0, near);
+                } else if (!reference::has_both_sides(inside, p, 8.0 * near, 4000)) {
+                    ++off;
+                }
+            }
         }
-        EXPECT_GT(from_inside, 10);
+        EXPECT_GT(from_inside, 20);
+        EXPECT_LE(off, from_inside / 50);
+        EXPECT_LE(early, from_inside / 50);
+        EXPECT_LE(late, from_inside / 50);  // past gaps thinner than a step
+        EXPECT_LE(other_normal, allowed_normals(examples()[e], from_inside));
     }
 }
 
 TEST_F(DistanceShapes, RaysFromTheSurfaceHitOnlyWhatTheyGoInto) {
     for (std::size_t e = 0; e < examples().size(); ++e) {
-        if (examples()[e].kind != ShapeKind::Blend) continue;
+        if (examples()[e].estimated) continue;
         SCOPED_TRACE(examples()[e].name);
-        const std::vector<shared::TestRay> rays = rays_to(e, 300, 4e-3f, false);
+        const std::vector<shared::TestRay> rays = rays_to(middle_of(e, 3), 100, 300, 4e-3f, false);
         std::vector<shared::TestRay> away, into;
         std::vector<float> thresholds;
         fakes::Random random(5);
@@ -241,7 +354,8 @@ TEST_F(DistanceShapes, RaysFromTheSurfaceHitOnlyWhatTheyGoInto) {
         for (const shared::RayAnswer& a : rig_->answers(0, into)) {
             passed += a.surface.kind == shared::SURFACE_NONE || a.transmittance != vec3(0.0f);
         }
-        EXPECT_LE(hit_again, 2);  // in the grooves, where another wall is as near
+        EXPECT_LE(hit_again,
+                  static_cast<int>(away.size()) / 25);  // in the grooves, where another wall is as near
         EXPECT_EQ(passed, 0);
     }
 }
@@ -251,7 +365,8 @@ TEST_F(DistanceShapes, LightLeavesTheSurface) {
     for (std::size_t e = 0; e < examples().size(); ++e) {
         SCOPED_TRACE(examples()[e].name);
         std::vector<shared::TestRay> rays;
-        for (const shared::RayAnswer& answer : rig_->answers(0, rays_to(e, 300, 2e-3f, false))) {
+        for (const shared::RayAnswer& answer :
+             rig_->answers(0, rays_to(middle_of(e, 2), 100, 300, 2e-3f, false))) {
             const shared::Surface& s = answer.surface;
             if (s.kind != shared::SURFACE_VIRTUAL) continue;
             shared::TestRay ray{};
@@ -263,7 +378,7 @@ TEST_F(DistanceShapes, LightLeavesTheSurface) {
         }
         int blocked = 0;
         for (const shared::RayAnswer& a : rig_->answers(0, rays)) blocked += a.transmittance != vec3(1.0f);
-        EXPECT_LE(blocked, static_cast<int>(rays.size()) / 20);  // fractals are rough
+        EXPECT_LE(blocked, static_cast<int>(rays.size()) / 15);  // fractals are rough
     }
 }
 
@@ -285,7 +400,7 @@ TEST_F(DistanceShapes, FollowTheirAnimatedParameters) {
     builder.add(std::move(animation));
     const scene::Scene scene = std::move(builder).build();
     RayRig rig(device(), scene);
-    const std::vector<shared::TestRay> rays = rays_to(0, 200, 1e-3f, false);
+    const std::vector<shared::TestRay> rays = rays_to(vec3(0.0f), 100, 200, 1e-3f, false);
     std::vector<float> sizes;
     for (const double seconds : {0.0, 0.5}) {
         const auto answers = rig.answers(from_seconds(seconds), rays);
@@ -318,7 +433,7 @@ TEST_F(DistanceShapes, WideConesTakeFewerSteps) {
     RayRig rig(device(), scene);
     const auto mean_steps = [&](float spread) {
         double sum = 0.0;
-        const std::vector<shared::TestRay> rays = rays_to(0, 400, spread, false);
+        const std::vector<shared::TestRay> rays = rays_to(vec3(0.0f), 100, 400, spread, false);
         for (const std::uint32_t steps : rig.steps(rays)) {
             EXPECT_LE(steps, 256u);
             sum += steps;
