@@ -80,14 +80,16 @@ std::vector<shared::RayAnswer> RayRig::answers(Nanoseconds time, const std::vect
 }
 
 std::vector<std::uint32_t> RayRig::steps(const std::vector<shared::TestRay>& rays) {
-    const std::string shapes = "render/shapes/", counted = "tests/shapes/count_mandelbulb.rint";
+    const std::map<std::string, std::string> counted = {
+        {"render/shapes/mandelbulb.rint", "tests/shapes/count_mandelbulb.rint"},
+        {"render/shapes/voxels.rint", "tests/shapes/count_voxels.rint"}};
     SceneProgram program("steps", RayType{"surface", "render/surface.rmiss"},
                          RayType{"shadow", "render/shadow.rmiss"});
     const SceneProgram& source = pipeline_.tracer().program();
     for (std::uint32_t type = 0; type < source.geometry_type_count(); ++type) {
         HitGroup surface = source.hit_group(type, 0), shadow = source.hit_group(type, 1);
-        if (surface.intersection == shapes + "mandelbulb.rint") {
-            surface.intersection = shadow.intersection = counted;
+        if (const auto shader = counted.find(surface.intersection); shader != counted.end()) {
+            surface.intersection = shadow.intersection = shader->second;
         }
         program.add_geometry_type<shared::SphereRecord>(source.geometry_type_name(type), surface, shadow);
     }

@@ -18,7 +18,8 @@ class RayRig {
     /// Which records the rays lead to, by debug hit shaders: for each ray, each ray type.
     std::vector<shared::RecordSeen> records(const std::vector<shared::TestRay>& rays);
 
-    /// How many steps a surface ray takes: in a scene of one Mandelbulb.
+    /// How many steps a surface ray takes: in a scene of one Mandelbulb, or of one voxel object as wide as in
+    /// object space.
     std::vector<std::uint32_t> steps(const std::vector<shared::TestRay>& rays);
 
     const scene::SceneChanges& changes() const { return *changes_; }  // of the last time looked at

@@ -242,29 +242,82 @@ scene::Scene mesh_scene(scene::Mesh mesh, vec3 scale, vec3 color) {
     return std::move(builder).build();
 }
 
-TEST_F(VoxelTest, aFarObjectLooksOnAverageAsItDoesInFull) {
-    const auto make = [](const scene::Scene& scene, std::uint32_t n) {
-        return std::make_shared<const Voxels>(*voxelize(scene, n));
-    };
-    std::vector<Looks> objects = {
-        {"ball", make(mesh_scene(scene::make_sphere(0.5f, 64), vec3(1.0f), vec3(0.9f)), 256)},
-        {"box", make(mesh_scene(scene::make_box(vec3(0.5f)), {1.0f, 0.6f, 0.3f}, vec3(0.7f)), 256)},
-        {"sheet", make(mesh_scene(scene::make_rectangle(vec2(0.5f)), vec3(1.0f), vec3(0.8f)), 256)},
-        {"rod", make(mesh_scene(scene::make_box(vec3(0.5f)), {1.0f, 0.04f, 0.04f}, vec3(0.8f)), 256)},
-    };
+Looks looks(const char* name, const scene::Mesh& mesh, vec3 scale, float gray, std::uint32_t resolution) {
+    return {name, std::make_shared<const Voxels>(*voxelize(mesh_scene(mesh, scale, vec3(gray)), resolution))};
+}
+
+/// In a quarter as many pixels and fewer, on the average over where they fall, within 2 %.
+void expect_same_mean(const gpu::Device& device, const Looks& object, int turns) {
     fakes::Random random(7);
-    for (const Looks& object : objects) {
-        for (int i = 0; i < 4; ++i) {
-            const quat turn = i == 0 ? glm::angleAxis(0.1f, vec3(0.8f, 0.6f, 0)) : random.rotation();
-            const vec4 full = mean_seen(device(), object.voxels, turn, 400, 1);
-            for (const std::uint32_t size : {20u, 40u, 80u}) {
-                const vec4 far = mean_seen(device(), object.voxels, turn, size, 400 / size);
-                const float difference = glm::length(far - full) / glm::length(full);
-                EXPECT_LT(difference, 0.02f) << object.name << " turned " << i << " in " << size
-                                             << " pixels covers " << far.a / full.a;
-            }
+    for (int i = 0; i < turns; ++i) {
+        const quat turn = i == 0 ? glm::angleAxis(0.1f, vec3(0.8f, 0.6f, 0)) : random.rotation();
+        const vec4 full = mean_seen(device, object.voxels, turn, 400, 1);
+        for (const std::uint32_t size : {20u, 40u, 80u}) {
+            const vec4 far = mean_seen(device, object.voxels, turn, size, 400 / size);
+            const float difference = glm::length(far - full) / glm::length(full);
+            EXPECT_LT(difference, 0.02f)
+                << object.name << " turned " << i << " in " << size << " pixels covers " << far.a / full.a;
         }
     }
+}
+
+TEST_F(VoxelTest, aFarObjectLooksOnAverageAsItDoesInFull) {
+    for (const Looks& object : {looks("ball", scene::make_sphere(0.5f, 64), vec3(1.0f), 0.9f, 256),
+                                looks("box", scene::make_box(vec3(0.5f)), {1.0f, 0.6f, 0.3f}, 0.7f, 256),
+                                looks("sheet", scene::make_rectangle(vec2(0.5f)), vec3(1.0f), 0.8f, 256),
+                                looks("rod", scene::make_box(vec3(0.5f)), {1.0f, 0.04f, 0.04f}, 0.8f, 256)}) {
+        expect_same_mean(device(), object, 4);
+    }
+}
+
+/// The level at which a ray through a pixel ends, of `size` across the view of mean_seen, 10 m away.
+std::uint32_t level_seen(const Voxels& voxels, std::uint32_t size) {
+    const float pixel = 2.0f * 0.11f * 10.0f / static_cast<float>(size);
+    const float voxel = voxels.voxel_size * 2.0f / glm::length(voxels.bounds().extent());
+    const float level = std::log2(std::max(shared::VOXEL_CONE_PART * pixel / voxel, 1.0f));
+    return std::min(static_cast<std::uint32_t>(level), voxels.depth - shared::VOXEL_LEAST_DEPTH);
+}
+
+TEST_F(VoxelTest, soItDoesAtLevelsFarAboveItsVoxels) {
+    const Looks ball = looks("fine ball", scene::make_sphere(0.5f, 64), vec3(1.0f), 0.9f, 512);
+    const Looks rod = looks("fine rod", scene::make_box(vec3(0.5f)), {1.0f, 0.04f, 0.04f}, 0.8f, 1024);
+    const auto levels = [](const Looks& object) {
+        std::vector<std::uint32_t> result;
+        for (const std::uint32_t size : {400u, 80u, 40u, 20u})
+            result.push_back(level_seen(*object.voxels, size));
+        return result;
+    };
+    ASSERT_EQ(levels(ball), (std::vector<std::uint32_t>{0, 1, 2, 2}));
+    ASSERT_EQ(levels(rod), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    expect_same_mean(device(), ball, 2);
+    expect_same_mean(device(), rod, 3);
+}
+
+TEST_F(VoxelTest, coarserRaysWalkLess) {
+    const Looks ball = looks("ball", scene::make_sphere(0.5f, 64), vec3(1.0f), 0.9f, 1024);
+    const scene::Scene scene = scene_with(ball.voxels, mat4(1.0f));
+    RayRig rig(device(), scene);
+    const auto mean_steps = [&](float cone_voxels) {
+        fakes::Random random(3);
+        std::vector<shared::TestRay> rays(400);
+        for (shared::TestRay& ray : rays) {
+            ray.origin = 3.0f * random.direction();
+            ray.direction = glm::normalize(0.5f * random.direction() - ray.origin);
+            ray.t_max = ray.shadow_t_max = 100.0f;
+            ray.cone = {cone_voxels * ball.voxels->voxel_size, 0.0f};
+        }
+        double sum = 0.0;
+        for (const std::uint32_t steps : rig.steps(rays)) sum += steps;
+        return sum / static_cast<double>(rays.size());
+    };
+    // Down to single voxels, and to nodes 1, 2 and 3 levels above them: most of the way is through empty
+    // space, which all rays cross in cubes as large as may be.
+    std::vector<double> steps;
+    for (const float width : {0.0f, 10.0f, 20.0f, 40.0f}) steps.push_back(mean_steps(width));
+    EXPECT_GT(steps[0], 20.0);
+    for (std::size_t level = 1; level < steps.size(); ++level)
+        EXPECT_LT(steps[level], steps[level - 1]) << level;
+    EXPECT_LT(steps[3], 0.9 * steps[0]);
 }
 
 }  // namespace
