@@ -262,6 +262,7 @@ UserShapeCode parse_user_shape(const std::filesystem::path& file, std::string te
             if (code.color_arguments)
                 fault(file, function.line, "color_at is defined twice", "keep one of them");
             code.color_arguments = std::move(arguments);
+            code.color_line = function.line;
             continue;
         }
         if (has_surface) {

@@ -37,6 +37,7 @@ struct UserShapeCode {
     std::vector<Argument> arguments;  // of the surface's function, after the fixed ones
     std::optional<std::vector<Argument>>
         color_arguments;  // of color_at, after the fixed ones; empty: not defined
+    std::uint32_t color_line = 0;
 
     /// Name of the function that defines the surface.
     std::string_view function() const;

@@ -1,12 +1,15 @@
 #include "render/user_shapes/compile.h"
 
 #include <algorithm>
+#include <array>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/SPIRV/spirv.hpp>
 #include <mutex>
 #include <optional>
 #include <regex>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -28,7 +31,7 @@ class Includer : public glslang::TShader::Includer {
     IncludeResult* includeLocal(const char* name, const char*, std::size_t depth) override {
         constexpr std::size_t deepest = 16;
         if (depth > deepest) return nullptr;
-        if (std::string_view(name) == user_file) {
+        if (std::string_view(name) == user_file && depth == 1) {
             return new IncludeResult(name_, code_.text.data(), code_.text.size(), nullptr);
         }
         for (const auto& [path, text] : snippets()) {
@@ -58,8 +61,57 @@ class Includer : public glslang::TShader::Includer {
             throw_bad_input(code.file.string() + ":" + match[2].str(), match[3].str(), "correct it");
         }
     }
+    if (log.find("missing #endif") != std::string::npos) {
+        throw_bad_input(code.file.string(), "an #if has no #endif", "end it with one");
+    }
+    if (log.find("ecursion detected") != std::string::npos) {
+        throw_bad_input(code.file.string(), "a function calls itself: " + first, "write a loop instead");
+    }
     throw_bad_input(code.file.string(), "does not fit into foveray's shader: " + first,
                     "rename what it defines besides distance_at, intersect and color_at");
+}
+
+struct Capability {
+    spv::Capability number;
+    const char* name;
+};
+
+/// What GLSL without extensions can ask of a GPU, and foveray does not.
+constexpr Capability not_enabled[] = {
+    {spv::CapabilityFloat64, "numbers of double precision"},
+    {spv::CapabilityFloat16, "numbers of 16 bits"},
+    {spv::CapabilityInt16, "integers of 16 bits"},
+    {spv::CapabilityInt8, "integers of 8 bits"},
+    {spv::CapabilityInt64Atomics, "atomic operations on 64 bits"},
+    {spv::CapabilityGroupNonUniform, "subgroup operations"},
+};
+
+/// Of what the device is made with; render/gpu/device.cpp.
+constexpr std::array enabled = {spv::CapabilityMatrix,
+                                spv::CapabilityShader,
+                                spv::CapabilityInt64,
+                                spv::CapabilityImageQuery,
+                                spv::CapabilityRayTracingKHR,
+                                spv::CapabilityPhysicalStorageBufferAddresses,
+                                spv::CapabilityRuntimeDescriptorArray,
+                                spv::CapabilityShaderNonUniform,
+                                spv::CapabilitySampledImageArrayNonUniformIndexing};
+
+/// What the device was not asked for would be undefined behaviour, or a message of the validation layer.
+void refuse_other_capabilities(const scene::UserShapeCode& code, std::span<const std::uint32_t> spirv) {
+    constexpr std::size_t header_words = 5;
+    for (std::size_t at = header_words; at < spirv.size(); at += spirv[at] >> spv::WordCountShift) {
+        if ((spirv[at] & spv::OpCodeMask) != spv::OpCapability) break;  // they come first
+        const auto wanted = static_cast<spv::Capability>(spirv[at + 1]);
+        if (std::ranges::find(enabled, wanted) != enabled.end()) continue;
+        const auto known = std::ranges::find(not_enabled, wanted, &Capability::number);
+        throw_bad_input(code.file.string(),
+                        "needs " +
+                            (known != std::end(not_enabled) ? std::string(known->name)
+                                                            : "capability " + std::to_string(wanted)) +
+                            ", which foveray does not ask of GPUs",
+                        "write it without");
+    }
 }
 
 std::vector<std::uint32_t> compile_stage(EShLanguage stage, const std::string& source,
@@ -86,6 +138,7 @@ std::vector<std::uint32_t> compile_stage(EShLanguage stage, const std::string& s
     glslang::SpvOptions options;
     options.stripDebugInfo = true;
     glslang::GlslangToSpv(*program.getIntermediate(stage), spirv, &options);
+    refuse_other_capabilities(code, spirv);
     return spirv;
 }
 

@@ -174,6 +174,10 @@ void probe(const scene::Scene& scene, const scene::UserShape& user, scene::UserS
     if (result.contains("fault")) {
         throw Fault(result["fault"].get<ExitCode>(), result["where"], result["what"], "");
     }
+    if (result.value("of_color", false)) {
+        throw_bad_input(user.code.file.string() + ":" + std::to_string(user.code.color_line),
+                        "color_at " + result["refused"].get<std::string>(), "correct the function");
+    }
     if (result.contains("refused")) refuse(result["refused"], "correct the function or the bounds");
 }
 

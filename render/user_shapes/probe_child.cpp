@@ -32,8 +32,8 @@ class Parent {
     int output_;
 };
 
-/// The reason to refuse the shape.
-std::optional<std::string> examine(const Json& json, const Parent& parent) {
+/// Why the shape is refused.
+std::optional<ProbeFrame::Finding> examine(const Json& json, const Parent& parent) {
     const ProbeRequest request = from_json(json);
     gpu::DeviceOptions options;
     options.validation = json["validation"];
@@ -45,7 +45,8 @@ std::optional<std::string> examine(const Json& json, const Parent& parent) {
     examination.warm_up(first);
     parent.say(probe_runs);
     for (const ProbeMoment& moment : request.moments) {
-        if (auto reason = examination.run(moment.shape, moment.shape.values, moment.seconds)) return reason;
+        if (auto reason = examination.run(moment.shape, moment.shape.values, moment.seconds))
+            return ProbeFrame::Finding{*reason};
     }
     parent.say(probe_prepares);
     ProbeFrame frame(device, textures, request.user, first);
@@ -53,9 +54,11 @@ std::optional<std::string> examine(const Json& json, const Parent& parent) {
     parent.say(probe_runs);
     const std::size_t last = request.moments.size() - 1;
     for (const std::size_t i : std::set{std::size_t{0}, last / 3, 2 * last / 3, last}) {
-        if (auto reason = frame.run(request.moments[i])) return reason;
+        if (auto finding = frame.run(request.moments[i])) return finding;
     }
-    if (!device.validation_messages().empty()) return "makes the validation layer complain";
+    if (!device.validation_messages().empty()) {
+        return ProbeFrame::Finding{"makes the validation layer complain"};
+    }
     return std::nullopt;
 }
 
@@ -68,8 +71,10 @@ std::optional<int> serve_probe(int argc, const char* const* argv) {
     const Parent parent;
     Json answer = Json::object();
     try {
-        const auto reason = examine(Json::parse(std::cin), parent);
-        if (reason) answer["refused"] = *reason;
+        if (const auto finding = examine(Json::parse(std::cin), parent)) {
+            answer["refused"] = finding->reason;
+            answer["of_color"] = finding->of_color;
+        }
     } catch (const Fault& fault) {
         const std::string sentence = std::string(fault.what()).substr(fault.where().size() + 2);
         answer["fault"] = fault.code();

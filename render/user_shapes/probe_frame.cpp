@@ -85,7 +85,7 @@ void ProbeFrame::warm_up() {
     look(std::array{view_along({1, 0, 0}, bounds.max + bounds.extent(), 40.0f)}, {scene_.shapes[0], 0.0f});
 }
 
-std::optional<std::string> ProbeFrame::run(const ProbeMoment& moment) {
+std::optional<ProbeFrame::Finding> ProbeFrame::run(const ProbeMoment& moment) {
     const scene::Aabb bounds = moment.shape.user_bounds;
     const float away = 1.5f * glm::length(bounds.extent());
     std::vector<View> views;
@@ -97,9 +97,9 @@ std::optional<std::string> ProbeFrame::run(const ProbeMoment& moment) {
         for (const shared::Surface& s : look(std::span(views).subspan(i, shared::MAX_VIEWS), moment)) {
             if (s.kind == shared::SURFACE_NONE) continue;
             if (!std::isfinite(s.distance) || !is_number(s.position))
-                return "is hit at a distance of NaN or infinity";
-            if (!is_number(s.normal)) return "has a normal of NaN or infinity";
-            if (!is_number(s.base_color)) return "has a colour of NaN or infinity";
+                return Finding{"is hit at a distance of NaN or infinity"};
+            if (!is_number(s.normal)) return Finding{"has a normal of NaN or infinity"};
+            if (!is_number(s.base_color)) return Finding{"returns a colour of NaN or infinity", true};
         }
     }
     return std::nullopt;

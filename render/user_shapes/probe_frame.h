@@ -21,8 +21,13 @@ class ProbeFrame {
 
     /// Lets the driver compile: traces rays that meet nothing. Waits.
     void warm_up();
+    /// Why a shape is refused, and which function is to blame.
+    struct Finding {
+        std::string reason;
+        bool of_color = false;  // color_at, not the surface's function
+    };
     /// What is wrong with what the rays find of a shape of the same file, if anything. Waits.
-    std::optional<std::string> run(const ProbeMoment& moment);
+    std::optional<Finding> run(const ProbeMoment& moment);
 
   private:
     std::vector<shared::Surface> look(std::span<const View> views, const ProbeMoment& moment);

@@ -40,6 +40,26 @@ TEST(CompileUserShape, ANameOfFoveraysOwnIsTheUsersError) {
                         ExitCode::BadInput, "folder/shape.glsl:2: 'record'");
 }
 
+TEST(CompileUserShape, OtherErrorsHaveTheirOwnRemedy) {
+    refuse("float distance_at(vec3 p) { return 1.0; }\n#if 1\n", "folder/shape.glsl: an #if has no #endif");
+    refuse("float distance_at(vec3 p) { return p.x > 0.0 ? distance_at(p - 1.0) : 1.0; }",
+           "folder/shape.glsl: a function calls itself: ");
+    refuse(
+        "float b(float x);\nfloat a(float x) { return b(x); }\nfloat b(float x) { return a(x); }\n"
+        "float distance_at(vec3 p) { return a(p.x); }",
+        "folder/shape.glsl: a function calls itself: ");
+    refuse("float distance_at(vec3 p) { return 1.0; }\n#include \"shape.glsl\"\n", "folder/shape.glsl:2: ");
+    refuse("float distance_at(vec3 p) { return 1.0; }\n#include \"the user's file\"\n",
+           "folder/shape.glsl:2: ");
+}
+
+TEST(CompileUserShape, AsksForNothingThatTheDeviceWasNotMadeWith) {
+    refuse("float distance_at(vec3 p) { return float(sqrt(double(p.x))); }",
+           "folder/shape.glsl: needs numbers of double precision");
+    refuse("float distance_at(vec3 p) { dvec3 q = p; return float(dot(q, q)); }", "double precision");
+    compile(shape_of("float distance_at(vec3 p) { uint64_t n = 3ul; return p.x * float(n); }"));
+}
+
 TEST(CompileUserShape, MayIncludeFoveraysOwn) {
     EXPECT_FALSE(compile(shape_of("#include \"shaders/shared/ray_types.h\"\n"
                                   "float distance_at(vec3 p) { return float(RAY_TYPE_COUNT); }"))

@@ -53,12 +53,12 @@ TEST(Probe, RefusesNaN) {
     refuse(user_scene("float distance_at(vec3 p) { return length(p) - 0.5; }\n"
                       "vec4 color_at(vec3 p, vec3 n) { return vec4(sqrt(-1.0 - p.x * p.x)); }",
                       {}, {}),
-           "has a colour of NaN");
+           "shape.glsl:2: color_at returns a colour of NaN");
     refuse(user_scene("float distance_at(vec3 p) { return length(p) - 0.5; }\n"
                       "vec4 color_at(vec3 p, vec3 n, float time) { return vec4(time > 0.0 ? sqrt(-1.0 - p.x "
                       "* p.x) : 1.0); }",
                       {}, {}),
-           "has a colour of NaN");
+           "color_at returns a colour of NaN");
 }
 
 TEST(Probe, RefusesSurfacesOutsideTheBounds) {
