@@ -28,14 +28,25 @@ Json read_json(const std::filesystem::path& file) {
     std::stringstream text;
     text << in.rdbuf();
     const std::string s = text.str();
+    const auto place_of = [&](std::size_t byte) {
+        const auto line = 1 + std::count(s.begin(), s.begin() + std::min(byte, s.size()), '\n');
+        return file.string() + ":" + std::to_string(line);
+    };
     try {
         return Json::parse(s);
     } catch (const Json::parse_error& e) {
-        const auto line = 1 + std::count(s.begin(), s.begin() + std::min(e.byte, s.size()), '\n');
-        throw_bad_input(file.string() + ":" + std::to_string(line), "not valid JSON",
-                        "correct the syntax there");
-    } catch (const Json::out_of_range&) {
-        throw_bad_input(file.string(), "holds a number that is too large", "correct it");
+        const std::string_view rest = std::string_view(s).substr(std::min(e.byte - 1, s.size()));
+        for (const std::string word : {"Infinity", "NaN"}) {
+            if (rest.starts_with(word))
+                throw_bad_input(place_of(e.byte), word + " is no number in JSON", "give a number");
+        }
+        throw_bad_input(place_of(e.byte), "not valid JSON", "correct the syntax there");
+    } catch (const Json::out_of_range& e) {
+        // "number overflow parsing '1e999'"
+        const std::string_view what = e.what();
+        const std::size_t from = what.find('\'') + 1;
+        const std::string number(what.substr(from, what.rfind('\'') - from));
+        throw_bad_input(place_of(s.find(number)), number + " is too large a number", "correct it");
     }
 }
 

@@ -1,8 +1,7 @@
 #include "render/gpu_scene.h"
 
-#include <cmath>
-
 #include "render/gpu_lights.h"
+#include "render/scene/singular.h"
 #include "shaders/shared/ray_types.h"
 
 namespace foveray::render {
@@ -30,10 +29,11 @@ std::vector<bool> used_meshes(const scene::Scene& scene) {
     return used;
 }
 
-bool is_invertible(const mat4& transform) {
-    const mat3 linear(transform);
-    const float size = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    return std::abs(glm::determinant(linear)) > 1e-6f * size;
+/// A scale of 0 hides what has it; rays cannot be taken into its space, and Vulkan forbids such instances.
+void hide_if_singular(GpuInstance& instance) {
+    if (scene::is_invertible(instance.world_from_object)) return;
+    instance.mask = 0;
+    instance.world_from_object = mat4(1.0f);
 }
 
 }  // namespace
@@ -136,6 +136,7 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
             const auto& joints = changes.deformations[*source.deformation].joints;
             instance.mirrored_vertices = !joints.empty() && glm::determinant(mat3(joints.front())) < 0.0f;
         }
+        hide_if_singular(instance);
         previous_[i] = {glm::mat4x3(state.previous_world_from_object), source.node};
     }
     const std::size_t first_shape = virtual_count;
@@ -146,8 +147,7 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
         instance.world_from_object = state.world_from_object;
         const bool moves = state.moved || structure_changed_[instance.structure];
         instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
-        // A parent scaled to nothing hides it; rays cannot be taken into its space.
-        if (!is_invertible(state.world_from_object)) instance.mask = 0;
+        hide_if_singular(instance);
         previous_[first_shape + i] = {glm::mat4x3(state.previous_world_from_object),
                                       scene_.shape_instances[i].node};
     }

@@ -1,5 +1,6 @@
 #include "render/scene/gltf_loader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -7,6 +8,7 @@
 #include "render/scene/gltf_materials.h"
 #include "render/scene/gltf_meshes.h"
 #include "render/scene/gltf_values.h"
+#include "render/scene/singular.h"
 
 namespace foveray::scene {
 namespace {
@@ -136,6 +138,7 @@ struct GltfModel::Impl {
     std::map<int, NodeId> add_nodes(const Use& use);
     NodeId add_node(int index, std::optional<NodeId> parent);
     void add_skins(const std::map<int, NodeId>& nodes);
+    void warn_of_flat(const std::map<int, NodeId>& nodes) const;
     Skin read_skin(std::size_t index, const std::map<int, NodeId>& nodes) const;
 };
 
@@ -162,6 +165,7 @@ void GltfModel::instantiate(const Use& use) {
         const std::map<int, NodeId> nodes = impl_->add_nodes(use);
         impl_->add_skins(nodes);
         if (use.animate) add_animations(impl_->builder, impl_->document, nodes);
+        impl_->warn_of_flat(nodes);
     } catch (const Json::exception& e) {
         impl_->document.fault("/", e.what());
     }
@@ -244,6 +248,22 @@ void GltfModel::Impl::add_skins(const std::map<int, NodeId>& nodes) {
                                                             std::to_string(used - 1));
         }
         builder.set_skin(id, skins[skin]);
+    }
+}
+
+/// A mesh that a scale of 0 flattens for good is not drawn; those of skins are placed by their joints.
+void GltfModel::Impl::warn_of_flat(const std::map<int, NodeId>& nodes) const {
+    for (const auto& [index, id] : nodes) {
+        const Node& node = builder.so_far().nodes[id];
+        if (!node.mesh || node.skin) continue;
+        const std::optional<NodeId> flat = flattened_by(builder.so_far(), id);
+        if (!flat) continue;
+        const auto at = std::ranges::find(nodes, *flat, [](const auto& pair) { return pair.second; });
+        const std::string cause = at == nodes.end()    ? "its parents'"
+                                  : at->first == index ? "its"
+                                                       : node_place(at->first) + "'s";
+        builder.warn(document.file.string() + ": " + node_place(index) + ": its mesh is left out: " + cause +
+                     " transform flattens it (a scale of 0)");
     }
 }
 

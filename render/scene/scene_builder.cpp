@@ -7,6 +7,7 @@
 #include "render/scene/animator.h"
 #include "render/scene/complete_mesh.h"
 #include "render/scene/deform.h"
+#include "render/scene/singular.h"
 
 namespace foveray::scene {
 namespace {
@@ -221,6 +222,7 @@ Mesh flatten(const Scene& scene) {
         const Instance& instance = scene.instances[id];
         const std::vector<DeformedVertices> parts = deformed_at_start(scene, start, instance);
         const mat4& world = start.instances[id].world_from_object;
+        if (!is_invertible(world)) continue;
         const mat3 normal_matrix = glm::transpose(glm::inverse(mat3(world)));
         for (std::size_t part = 0; part < parts.size(); ++part) {
             const auto first = static_cast<std::uint32_t>(all.positions.size());

@@ -10,6 +10,7 @@
 #include "render/scene/scene_material.h"
 #include "render/scene/scene_parameters.h"
 #include "render/scene/scene_solid.h"
+#include "render/scene/singular.h"
 #include "render/scene/user_shape_object.h"
 #include "render/scene/voxel_object.h"
 
@@ -54,7 +55,7 @@ class ObjectReader {
         Node node = read_node("mesh");
         node.mesh =
             builder_.add(read_mesh_parts(builder_, values_, json_["mesh"], node.name, place_ + "/mesh"));
-        add_animation(builder_, values_, json_, place_, builder_.add(std::move(node)), {});
+        add_node(std::move(node), {});
     }
 
     void read_shape_object() {
@@ -69,7 +70,23 @@ class ObjectReader {
         shape.name = node.name;
         shape.material = builder_.add(material());
         node.shape = builder_.add(std::move(shape));
-        add_animation(builder_, values_, json_, place_, builder_.add(std::move(node)), parameters);
+        add_node(std::move(node), parameters);
+    }
+
+    void add_node(Node node, const std::vector<ShapeParameter>& parameters) {
+        const NodeId id = builder_.add(std::move(node));
+        add_animation(builder_, values_, json_, place_, id, parameters);
+        const std::optional<NodeId> flat = flattened_by(builder_.so_far(), id);
+        if (!flat) return;
+        if (*flat == id) {
+            values_.fault(place_ + "/transform",
+                          "leaves nothing of the object: all scales together are too small",
+                          "give it or its parents larger ones");
+        }
+        values_.fault(
+            place_ + "/parent",
+            "the transform of \"" + builder_.so_far().nodes[*flat].name + "\" flattens what hangs on it",
+            "give that node a scale other than 0");
     }
 
     Node read_node(std::string_view kind) const {
@@ -103,6 +120,9 @@ class ObjectReader {
             values_.fault(place_ + "/" + key.name,
                           fmt::format("only a {} shape has {}", shape_kind(key.kind).name, key.pronoun),
                           "leave the key out");
+        }
+        if (json_.contains("file") && kind != ShapeKind::User && kind != ShapeKind::Voxels) {
+            values_.fault(place_ + "/file", "only user and voxels shapes have one", "leave the key out");
         }
     }
 

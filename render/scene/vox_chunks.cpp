@@ -98,10 +98,11 @@ class VoxReader {
         if (pending_size_) fault("a model has no XYZI chunk");
         VoxFile::Model model;
         for (int axis = 0; axis < 3; ++axis) {
-            model.size[axis] = take_int(content);
-            if (model.size[axis] < 1 || model.size[axis] > 256) {
-                fault("a model is " + std::to_string(model.size[axis]) + " voxels wide, not 1 to 256");
+            const auto size = static_cast<std::uint32_t>(take_int(content));
+            if (size < 1 || size > 256) {
+                fault("a model is " + std::to_string(size) + " voxels wide, not 1 to 256");
             }
+            model.size[axis] = static_cast<std::int32_t>(size);
         }
         out_.models.push_back(std::move(model));
         pending_size_ = true;

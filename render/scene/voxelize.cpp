@@ -7,6 +7,7 @@
 
 #include "render/scene/animator.h"
 #include "render/scene/deform.h"
+#include "render/scene/singular.h"
 #include "render/scene/texture_sampler.h"
 
 namespace foveray::scene {
@@ -133,6 +134,7 @@ class Voxelizer {
     };
 
     void add(const Part& part) {
+        if (!is_invertible(part.world)) return;
         const Primitive& primitive = *part.primitive;
         const mat3 normal_matrix = glm::transpose(glm::inverse(mat3(part.world)));
         Triangle triangle;

@@ -31,6 +31,18 @@ TEST_F(GltfNode, transformsMultiplyDownTheTree) {
     expect_near(scene.bounds.min, {0, 5, -3});
 }
 
+TEST_F(GltfNode, aMeshThatAScaleOfZeroFlattensIsNamed) {
+    GltfBuilder gltf = GltfBuilder::triangle();
+    gltf.add_root({{"scale", {1, 1, 0}}, {"children", {2}}});
+    gltf.add("nodes", {{"mesh", 0}});
+    const Scene scene = load(gltf);
+    EXPECT_EQ(scene.instances.size(), 2u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("/nodes/2: its mesh is left out: /nodes/1's transform flattens it"),
+              std::string::npos)
+        << scene.warnings[0];
+}
+
 TEST_F(GltfNode, matricesAreColumnMajor) {
     GltfBuilder gltf = GltfBuilder::triangle();
     gltf.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};

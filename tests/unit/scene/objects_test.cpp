@@ -1,6 +1,7 @@
 #include "render/scene/csg.h"
 #include "render/scene/load_scene.h"
 #include "render/scene/scene_builder.h"
+#include "render/scene/singular.h"
 #include "tests/fakes/expect_fault.h"
 #include "tests/unit/scene/scene_fixture.h"
 
@@ -48,6 +49,55 @@ TEST_F(SceneObjects, shapesHaveDefaultsAndBounds) {
     EXPECT_FLOAT_EQ(plane.bounds.max.z, 3.0f);
     EXPECT_LT(plane.bounds.max.y, 0.01f);
     EXPECT_GT(plane.bounds.max.y, 0.0f);
+}
+
+TEST_F(SceneObjects, whatItsParentsFlattenIsNamed) {
+    fakes::GltfBuilder gltf = fakes::GltfBuilder::triangle();
+    gltf.json["nodes"][0]["name"] = "lid";
+    gltf.json["nodes"][0]["scale"] = {1, 0, 1};
+    folder_.write("flat.gltf", gltf.text());
+    const auto with = [&](const Json& objects) {
+        const Json json = {{"format", "foveray-scene"},
+                           {"version", 1},
+                           {"models", {{{"file", "flat.gltf"}}}},
+                           {"objects", objects}};
+        return load_scene(folder_.write("scene.json", json.dump()));
+    };
+    fakes::expect_fault(
+        [&] {
+            with({{{"shape", "sphere"}, {"parent", "lid"}}});
+        },
+        ExitCode::BadInput, "/objects/0/parent: the transform of \"lid\" flattens");
+    // Each scale is allowed, their product is not.
+    const Json tiny = {{"scale", {1e-12, 1e-12, 1e-12}}};
+    fakes::expect_fault(
+        [&] {
+            with({{{"shape", "sphere"}, {"name", "a"}, {"transform", tiny}},
+                  {{"shape", "sphere"}, {"name", "b"}, {"parent", "a"}, {"transform", tiny}}});
+        },
+        ExitCode::BadInput, "/objects/1/transform: leaves nothing of the object");
+}
+
+TEST_F(SceneObjects, whatGrowsFromNothingIsNotFlat) {
+    SceneBuilder builder;
+    Node parent, child;
+    parent.local.scale = {0, 1, 1};
+    const NodeId above = builder.add(parent);
+    child.parent = above;
+    const NodeId below = builder.add(child);
+    EXPECT_EQ(flattened_by(builder.so_far(), below), above);
+    Animation animation;
+    animation.channels.push_back(
+        {.node = above, .property = AnimatedProperty::Scale, .times = {0, 1}, .values = {0, 1, 1, 1, 1, 1}});
+    builder.add(animation);
+    EXPECT_FALSE(flattened_by(builder.so_far(), below).has_value());
+}
+
+TEST_F(SceneObjects, filesBelongToUserAndVoxelShapes) {
+    expect_bad({{"shape", "sphere"}, {"file", "ball.glsl"}},
+               "/objects/0/file: only user and voxels shapes have one");
+    expect_bad({{"shape", "blend"}, {"parts", {{{"sphere", Json::object()}}}}, {"file", "a.vox"}},
+               "/objects/0/file");
 }
 
 TEST_F(SceneObjects, badValuesAreNamed) {

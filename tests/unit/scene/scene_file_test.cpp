@@ -248,8 +248,12 @@ TEST_F(SceneFile, otherFormatsVersionsAndSyntax) {
     expect_bad_text(R"({"format": "foveray-scene", "version": 2})", "/version");
     expect_bad_text(R"({"version": 1})", "format");
     expect_bad_text("{\n\n\"format\" 3}", "scene.json:3");
-    expect_bad_text(R"({"format": "foveray-scene", "version": 1, "environment": {"intensity": 1e999}})",
-                    "too large");
+    expect_bad_text(
+        "{\n\"format\": \"foveray-scene\", \"version\": 1,\n\"environment\": {\"intensity\": 1e400}}",
+        "scene.json:3: 1e400 is too large a number");
+    expect_bad_text("{\n\"version\": Infinity}", "scene.json:2: Infinity is no number in JSON");
+    expect_bad_text("{\n\"version\": -Infinity}", "scene.json:2: Infinity is no number in JSON");
+    expect_bad_text("{\n\"version\": NaN}", "scene.json:2: NaN is no number in JSON");
     expect_bad_text(R"({"format": "foveray-scene", "version": 1, "environment": {"intensity": 1e300}})",
                     "/environment/intensity");
     fakes::expect_fault([&] { load_scene(folder_.path() / "none.json"); }, ExitCode::BadInput, "none.json");

@@ -143,7 +143,8 @@ TEST_F(VoxFileTest, whatItClaimsMustBeThere) {
     expect_refused(VoxBuilder().chunk("XYZI", word(0)).bytes(), "no SIZE");
     expect_refused(VoxBuilder().chunk("SIZE", word(0) + word(2) + word(2)).bytes(), "0 voxels wide");
     expect_refused(VoxBuilder().chunk("SIZE", word(2) + word(0x7FFFFFFF) + word(2)).bytes(), "voxels wide");
-    expect_refused(VoxBuilder().chunk("SIZE", word(2) + word(-1) + word(2)).bytes(), "voxels wide");
+    expect_refused(VoxBuilder().chunk("SIZE", word(2) + word(-1) + word(2)).bytes(),
+                   "4294967295 voxels wide");
     expect_refused(VoxBuilder().model(2, 2, 2, {{0, 0, 0, 0}}).bytes(), "colour 0");
     expect_refused(VoxBuilder().model(2, 2, 2, {{0, 2, 0, 1}}).bytes(), "outside");
     expect_refused(VoxBuilder().model(2, 2, 2, {}).bytes(), "no voxel");
