@@ -1,8 +1,8 @@
 #include "render/scene_textures.h"
 
-#include <algorithm>
-#include <bit>
 #include <span>
+
+#include "render/mip_levels.h"
 
 namespace foveray::render {
 namespace {
@@ -87,20 +87,21 @@ SceneTextures::~SceneTextures() {
     for (const auto& [key, index] : textures_) table_.remove(index);
 }
 
-const gpu::Image& SceneTextures::image(gpu::Uploader& uploader, const scene::Scene& scene, scene::ImageId id,
-                                       Content content) {
-    const auto it = images_.find({id, content});
+const gpu::Image& SceneTextures::image(gpu::Uploader& uploader, const scene::Scene& scene,
+                                       const scene::Texture& texture, Content content) {
+    const scene::Wrap u = texture.sampler.wrap_u, v = texture.sampler.wrap_v;
+    const std::tuple key(texture.image, content, u, v);
+    const auto it = images_.find(key);
     if (it != images_.end()) return it->second;
-    const scene::TextureImage& source = scene.images[id];
+    const scene::TextureImage& source = scene.images[texture.image];
     gpu::ImageInfo info;
     info.extent = vk::Extent2D(source.pixels.width, source.pixels.height);
     info.format = content == Content::Color ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm;
-    info.mip_levels =
-        static_cast<std::uint32_t>(std::bit_width(std::max(info.extent.width, info.extent.height)));
+    info.mip_levels = mip_level_count(source.pixels.width, source.pixels.height);
     info.usage = vk::ImageUsageFlagBits::eSampled;
-    const std::string name = "image " + std::to_string(id) + " " + source.name;
-    return images_
-        .emplace(std::pair(id, content), uploader.image(name, info, gpu::range_bytes(source.pixels.pixels)))
+    const std::string name = "image " + std::to_string(texture.image) + " " + source.name;
+    const std::vector<std::uint8_t> texels = mip_levels(source.pixels, content == Content::Color, u, v);
+    return images_.emplace(key, uploader.image(name, info, gpu::range_bytes(texels), info.mip_levels))
         .first->second;
 }
 
@@ -110,7 +111,7 @@ std::uint32_t SceneTextures::texture(gpu::Uploader& uploader, const scene::Scene
     if (it != textures_.end()) return it->second;
     const scene::Texture& source = scene.textures[id];
     const std::uint32_t index =
-        table_.add(image(uploader, scene, source.image, content).view(), sampler_info(source.sampler));
+        table_.add(image(uploader, scene, source, content).view(), sampler_info(source.sampler));
     textures_.emplace(std::pair(id, content), index);
     return index;
 }

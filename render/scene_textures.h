@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,7 @@ class SceneTextures {
   private:
     enum class Content { Color, Data };  // Color: sRGB
 
-    const gpu::Image& image(gpu::Uploader& uploader, const scene::Scene& scene, scene::ImageId id,
+    const gpu::Image& image(gpu::Uploader& uploader, const scene::Scene& scene, const scene::Texture& texture,
                             Content content);
     std::uint32_t texture(gpu::Uploader& uploader, const scene::Scene& scene, scene::TextureId id,
                           Content content);
@@ -36,7 +37,8 @@ class SceneTextures {
 
     const gpu::Device& device_;
     gpu::TextureTable& table_;
-    std::map<std::pair<scene::ImageId, Content>, gpu::Image> images_;
+    /// What lies beyond an image's edges is part of its levels.
+    std::map<std::tuple<scene::ImageId, Content, scene::Wrap, scene::Wrap>, gpu::Image> images_;
     std::map<std::pair<scene::TextureId, Content>, std::uint32_t> textures_;  // index in the table
     std::vector<shared::Material> materials_;
 };

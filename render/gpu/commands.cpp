@@ -116,37 +116,50 @@ Buffer Uploader::buffer(const std::string& name, std::span<const std::byte> data
     return target;
 }
 
-Image Uploader::image(const std::string& name, const ImageInfo& info, std::span<const std::byte> texels) {
+Image Uploader::image(const std::string& name, const ImageInfo& info, std::span<const std::byte> texels,
+                      std::uint32_t levels) {
+    assert(levels >= 1 && levels <= info.mip_levels);
     ImageInfo full = info;
     full.usage |= vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst;
     Image target(device_, name, full);
     Buffer source(device_, "staging for " + name, texels.size(), Residence::Upload);
     source.write(texels);
-    work_.push_back([from = source.vk(), to = target.vk(), full](const Commands& cmd) {
+    work_.push_back([from = source.vk(), to = target.vk(), full, levels,
+                     bytes = texels.size()](const Commands& cmd) {
         using Layout = vk::ImageLayout;
         constexpr auto colour = vk::ImageAspectFlagBits::eColor;
         transition(cmd.vk(), to, Access::None, Layout::eUndefined, Access::TransferWrite,
                    Layout::eTransferDstOptimal);
-        cmd->copyBufferToImage(
-            from, to, Layout::eTransferDstOptimal,
-            vk::BufferImageCopy(0, 0, 0, {colour, 0, 0, 1}, {}, {full.extent.width, full.extent.height, 1}));
-        vk::Offset3D size(static_cast<int>(full.extent.width), static_cast<int>(full.extent.height), 1);
-        for (std::uint32_t level = 1; level < full.mip_levels; ++level) {
-            const vk::Offset3D half(std::max(1, size.x / 2), std::max(1, size.y / 2), 1);
+        std::vector<vk::BufferImageCopy> copies;
+        vk::DeviceSize start = 0;  // texels before the level
+        vk::Extent3D extent(full.extent, 1);
+        for (std::uint32_t level = 0; level < levels; ++level) {
+            copies.emplace_back(start, 0, 0, vk::ImageSubresourceLayers(colour, level, 0, 1), vk::Offset3D(),
+                                extent);
+            start += vk::DeviceSize{extent.width} * extent.height;
+            extent = vk::Extent3D(std::max(1u, extent.width / 2), std::max(1u, extent.height / 2), 1);
+        }
+        for (vk::BufferImageCopy& copy : copies) copy.bufferOffset *= bytes / start;  // of one texel
+        cmd->copyBufferToImage(from, to, Layout::eTransferDstOptimal, copies);
+        const auto size_of = [&](std::uint32_t level) {
+            return vk::Offset3D(static_cast<int>(std::max(1u, full.extent.width >> level)),
+                                static_cast<int>(std::max(1u, full.extent.height >> level)), 1);
+        };
+        for (std::uint32_t level = levels; level < full.mip_levels; ++level) {
             transition(cmd.vk(), to, Access::TransferWrite, Layout::eTransferDstOptimal, Access::TransferRead,
                        Layout::eTransferSrcOptimal, colour, level - 1, 1);
             cmd->blitImage(to, Layout::eTransferSrcOptimal, to, Layout::eTransferDstOptimal,
-                           vk::ImageBlit({colour, level - 1, 0, 1}, {vk::Offset3D(), size},
-                                         {colour, level, 0, 1}, {vk::Offset3D(), half}),
+                           vk::ImageBlit({colour, level - 1, 0, 1}, {vk::Offset3D(), size_of(level - 1)},
+                                         {colour, level, 0, 1}, {vk::Offset3D(), size_of(level)}),
                            vk::Filter::eLinear);
-            size = half;
         }
         const auto finish = [&](Access from_access, Layout layout, std::uint32_t base, std::uint32_t count) {
             if (count == 0) return;
             transition(cmd.vk(), to, from_access, layout, Access::RayTracingRead,
                        Layout::eShaderReadOnlyOptimal, colour, base, count);
         };
-        finish(Access::TransferRead, Layout::eTransferSrcOptimal, 0, full.mip_levels - 1);
+        finish(Access::TransferWrite, Layout::eTransferDstOptimal, 0, levels - 1);
+        finish(Access::TransferRead, Layout::eTransferSrcOptimal, levels - 1, full.mip_levels - levels);
         finish(Access::TransferWrite, Layout::eTransferDstOptimal, full.mip_levels - 1, 1);
     });
     staged_ += texels.size();

@@ -88,9 +88,10 @@ class Uploader {
     ~Uploader() { flush(); }
 
     Buffer buffer(const std::string& name, std::span<const std::byte> data, vk::BufferUsageFlags extra = {});
-    /// Fills level 0 with tightly packed texels, makes the other levels by halving (linear blit), and leaves
-    /// the image ready to be sampled by ray tracing and compute shaders.
-    Image image(const std::string& name, const ImageInfo& info, std::span<const std::byte> texels);
+    /// Fills the first `levels` levels with tightly packed texels, level after level, makes the others by
+    /// halving (linear blit), and leaves the image ready to be sampled by ray tracing and compute shaders.
+    Image image(const std::string& name, const ImageInfo& info, std::span<const std::byte> texels,
+                std::uint32_t levels = 1);
     /// Everything asked for so far is on the GPU afterwards.
     void flush();
 

@@ -10,6 +10,10 @@
 // Samples or pixels, whichever are larger, that resolve's filter reaches to, with one to spare.
 const float FILTER_REACH = 3.0;
 
+// Width of a polar sample's cone in samples, and the least ratio of angular to radial spacing that it follows.
+const float CONE_SPACINGS = 1.3;
+const float LEAST_CONE_RATIO = 0.6;
+
 bool polar_sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec3 direction, out float cone_spread) {
     PolarMap map = grid.at[0].polar;
     uint eye = index / (map.width * map.height);
@@ -21,10 +25,12 @@ bool polar_sample_ray(SampleGridArray grid, uint index, out vec3 origin, out vec
     direction = polar_direction(gaze, e, TWO_PI * (float(angular) + polar_ring_start(radial)) / float(map.height));
     float radial_spacing = radians(polar_radial_spacing(map, e));
     float angular_spacing = radians(polar_angular_spacing(map, e));
-    // Geometric mean, so that the cone's area goes with the sample's share of the sphere; where samples crowd along the
-    // circle, near the gaze, thinner cones would only alias. Half of it, because texture filters and resolve's kernel
-    // blur again: measured to come nearest to the low-passed truth (tests/render/light/sharpness_test.cpp).
-    cone_spread = 0.5 * sqrt(radial_spacing * max(angular_spacing, 0.25 * radial_spacing));
+    // As wide as lets no grating above half the density come back as a coarser one, and keeps those of a quarter of it
+    // (tests/render/light/acuity_chart_test.cpp). Rings in quincunx show along the circle what they show along the
+    // radius, though angular samples are up to half as far apart again. Where they crowd, near the gaze, the cone shrinks
+    // to a pixel's of the full resolution.
+    float across = clamp(angular_spacing, LEAST_CONE_RATIO * radial_spacing, radial_spacing);
+    cone_spread = CONE_SPACINGS * sqrt(radial_spacing * across);
     float spacing = max(radial_spacing, angular_spacing);
     for (uint i = 0; i < grid.at[0].view_count; ++i) {
         ViewParams view = grid.at[0].views[i];

@@ -65,6 +65,35 @@ TEST_F(MemoryTest, MovingKeepsOneOwner) {
     EXPECT_EQ(used_memory(device()), before);
 }
 
+TEST_F(MemoryTest, GivenLevelsAreKeptAndTheRestHalved) {
+    // 4 x 2, 2 x 1 and 1 x 1 texels: red tells the level.
+    const auto red = [](std::size_t texels, std::uint8_t value) {
+        std::vector<std::uint8_t> level;
+        for (std::size_t i = 0; i < texels; ++i) level.insert(level.end(), {value, 0, 0, 255});
+        return level;
+    };
+    std::vector<std::uint8_t> two = red(8, 10);
+    std::ranges::copy(red(2, 90), std::back_inserter(two));
+    std::vector<std::uint8_t> three = two;
+    std::ranges::copy(red(1, 200), std::back_inserter(three));
+    const ImageInfo info{.extent = {4, 2}, .mip_levels = 3, .usage = vk::ImageUsageFlagBits::eSampled};
+    Uploader uploader(device());
+    const Image all = uploader.image("all given", info, range_bytes(three), 3);
+    const Image rest = uploader.image("two given", info, range_bytes(two), 2);
+    uploader.flush();
+    TextureTable textures(device());
+    const std::uint32_t a = textures.add(all.view(), {}), r = textures.add(rest.view(), {});
+    const auto colors = sample(textures, {{a, 0.5f, 0.5f, 0.0f},
+                                          {a, 0.5f, 0.5f, 1.0f},
+                                          {a, 0.5f, 0.5f, 2.0f},
+                                          {r, 0.5f, 0.5f, 0.0f},
+                                          {r, 0.5f, 0.5f, 1.0f},
+                                          {r, 0.5f, 0.5f, 2.0f}});
+    const float expected[] = {10, 90, 200, 10, 90, 90};
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        EXPECT_NEAR(colors[i].r * 255.0f, expected[i], 1.01f) << i;
+}
+
 TEST_F(MemoryTest, MipsAreAveragesAndSamplersHold) {
     // 4 x 2 texels: red is the column, green the row.
     std::vector<std::uint8_t> texels;

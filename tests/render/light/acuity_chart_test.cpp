@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -18,6 +19,9 @@ namespace {
 /// Where the chart has gratings, as assets/generate/acuity_chart.py sets them.
 constexpr std::array rings = {5.0f, 10.0f, 20.0f, 30.0f, 40.0f};
 constexpr std::array seen_meridians = {0.0f, 90.0f, 270.0f};  // stripes across the radius, and along it twice
+constexpr std::array fine_meridians = {45.0f, 135.0f};        // likewise
+constexpr std::uint32_t seen = 0, fine = 1;  // the gratings are the chart's first two objects
+constexpr float fine_frequency = 0.75f;      // of the acuity's pixels a degree
 constexpr std::uint32_t crop_pixels = 72;
 
 class AcuityChart : public fakes::GpuTest {
@@ -52,14 +56,15 @@ class AcuityChart : public fakes::GpuTest {
         double pattern = 0.0;  // of all there is but the mean: as of a sine with so much power
     };
 
-    Contrast contrast_at(float eccentricity, float meridian) {
+    /// Of a grating, `seen` or `fine`.
+    Contrast contrast_at(LightRig& rig, std::uint32_t object, float eccentricity, float meridian) {
         Shot shot;
         shot.acuity = headset_.acuity;
         shot.every_pixel = false;
         shot.read_samples = false;
         shot.fovea.origin = eye_;
         shot.views = {crop_at(eccentricity, meridian)};
-        const Picture picture = rig_.render(shot).views[0];
+        const Picture picture = rig.render(shot).views[0];
         if (const char* folder = std::getenv("FOVERAY_TEST_PICTURES")) {
             Image image(picture.size.x, picture.size.y, 3);
             for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -72,12 +77,12 @@ class AcuityChart : public fakes::GpuTest {
                                                        std::to_string(int(meridian)) + ".png"),
                       image);
         }
+        const float half_width = object == seen ? 5.0f : 15.0f;  // periods
         double n = 0.0, sum = 0.0, squares = 0.0, sine = 0.0, cosine = 0.0;
         for (std::uint32_t y = 0; y < picture.size.y; ++y) {
             for (std::uint32_t x = 0; x < picture.size.x; ++x) {
                 const auto hit = tracer_.closest({dvec3(eye_), dvec3(direction_of(shot.views[0], x, y))});
-                if (!hit || hit->object > 1) continue;  // the gratings are the chart's first two objects
-                const float half_width = hit->object == 0 ? 5.0f : 15.0f;  // periods
+                if (!hit || hit->object != object) continue;
                 if (std::max(std::abs(hit->uv0.x), std::abs(hit->uv0.y)) > 0.8f * half_width) continue;
                 const double value = picture.at(x, y).radiance.r, phase = 2.0 * pi * hit->uv0.x;
                 n += 1.0, sum += value, squares += value * value;
@@ -100,12 +105,54 @@ class AcuityChart : public fakes::GpuTest {
 TEST_F(AcuityChart, HalfTheContrastIsKeptAtAQuarterOfTheAcuity) {
     for (const float e : rings) {
         for (const float meridian : seen_meridians) {
-            const Contrast contrast = contrast_at(e, meridian);
+            const Contrast contrast = contrast_at(rig_, seen, e, meridian);
             std::cout << e << " degrees, meridian " << meridian << ": " << contrast.kept << '\n';
             EXPECT_GE(contrast.kept, 0.5) << e << " degrees, meridian " << meridian;
         }
     }
-    EXPECT_GE(contrast_at(0.0f, 0.0f).kept, 0.5);
+    EXPECT_GE(contrast_at(rig_, seen, 0.0f, 0.0f).kept, 0.5);
+}
+
+/// The same chart with its gratings too fine at another frequency, from a texture of so many periods: its
+/// levels then fall differently on the stripes.
+scene::Scene with_fine_gratings(scene::Scene scene, float frequency, int periods) {
+    scene::Primitive& gratings = scene.meshes[*scene.nodes[fine].mesh].primitives[0];
+    for (vec2& uv : gratings.uv0) uv *= frequency / (fine_frequency * static_cast<float>(periods));
+    const scene::TextureUse& use = scene.materials[gratings.material].base_color_texture;
+    Image& stripes = scene.images[scene.textures[*use.texture].image].pixels;
+    for (std::uint32_t y = 0; y < stripes.height; ++y) {
+        for (std::uint32_t x = 0; x < stripes.width; ++x) {
+            const float turns = static_cast<float>(periods) * (static_cast<float>(x) + 0.3f) /
+                                static_cast<float>(stripes.width);
+            const float shade = srgb_from_linear(0.5f + 0.5f * std::sin(2.0f * pi * turns));
+            std::fill_n(stripes.at(x, y), 3, static_cast<std::uint8_t>(255.0f * shade + 0.5f));
+        }
+    }
+    return scene;
+}
+
+// Of all that a grating above half the acuity's density leaves, its own stripes included, no eye sees a
+// twentieth of its contrast: sensitivity falls to 1 at ppd / 2 from about 100, and is about 10 at ppd / 4,
+// where 3/4 ppd would come back.
+TEST_F(AcuityChart, NoFalsePatternAboveHalfTheAcuity) {
+    struct Fine {
+        float frequency;  // of the acuity's pixels a degree
+        int periods;      // a texture
+    };
+    for (const Fine f : {Fine{0.75f, 1}, Fine{0.75f, 5}, Fine{1.1f, 5}}) {
+        const scene::Scene scene = with_fine_gratings(scene_, f.frequency, f.periods);
+        LightRig rig(device(), scene);
+        double worst = 0.0;
+        for (const float e : rings) {
+            for (const float meridian : fine_meridians) {
+                const Contrast contrast = contrast_at(rig, fine, e, meridian);
+                worst = std::max(worst, contrast.pattern);
+                EXPECT_LE(contrast.pattern, 0.05) << f.frequency << " ppd, " << f.periods << " periods, " << e
+                                                  << " degrees, meridian " << meridian;
+            }
+        }
+        std::cout << f.frequency << " ppd, " << f.periods << " periods a texture: " << worst << '\n';
+    }
 }
 
 }  // namespace
