@@ -95,9 +95,9 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
                                       counters_.address(), shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    light = history_.record(cmd,
-                            {grid, hits, light, !scene_.real_surfaces.empty(), frame.display_time, settings});
-    const auto images = resolve_.record(cmd, light, grid, frame.views, settings);
+    const bool real_surfaces = !scene_.real_surfaces.empty();
+    light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
+    const auto images = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
     compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
                        passthrough::choose_background(camera_ != nullptr, frame.blend, settings), settings);
     headset_.record_submission(cmd, frame, pictures_of(images));
@@ -142,9 +142,9 @@ void FrameLoop::collect_metrics(std::uint32_t slot) {
     metrics.polar_size = submitted.polar_size;
     metrics.cpu_ms = submitted.cpu_ms;
     const render::RayCounts counts = counters_.counts(slot);
-    metrics.rays = {counts[shared::COUNT_PRIMARY], counts[shared::COUNT_SHADOW],
+    metrics.rays = {counts[shared::COUNT_PRIMARY],    counts[shared::COUNT_SHADOW],
                     counts[shared::COUNT_REFLECTION], counts[shared::COUNT_TRANSPARENT],
-                    counts[shared::COUNT_PROBE], counts[shared::COUNT_OCCLUSION]};
+                    counts[shared::COUNT_PROBE],      counts[shared::COUNT_OCCLUSION]};
     for (const gpu::StageTime& time : ring_.stage_times())
         metrics.stages.emplace_back(time.name, time.milliseconds);
     finished_ = std::move(metrics);

@@ -24,13 +24,14 @@ void Compositor::record(const gpu::Commands& cmd, std::span<const View> views,
                         vk::DeviceAddress scene_data, Background background, const Settings& settings) const {
     assert(views.size() == images.size());
     const auto stage = cmd.stage("compositor");
-    cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::ComputeRead);
+    cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::ComputeWrite);
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         assert(images[i].size == view.size);
         const quat& q = view.stage_from_eye.orientation;
         shared::CompositorPush push{};
         push.resolved = images[i].resolved;
+        push.real = images[i].real;
         push.color = images[i].color;
         push.depth = images[i].depth;
         push.room = room.params;

@@ -1,7 +1,6 @@
 #include "render/resolve.h"
 
-#include <string>
-
+#include "render/grow.h"
 #include "shaders/shared/resolve.h"
 
 namespace foveray::render {
@@ -19,29 +18,26 @@ ResolveStage::ResolveStage(const gpu::Device& device, const gpu::TextureTable& t
     : device_(device), pipeline_(device, "render/resolve.comp", textures, sizeof(shared::ResolvePush)) {}
 
 ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
-                                std::span<const View> views, const Settings& settings) {
+                                std::span<const View> views, bool real_surfaces, const Settings& settings) {
     using gpu::Access;
     const auto stage = cmd.stage("resolve");
-    // Whoever read the pictures of the frame before.
-    cmd.barrier(Access::ComputeRead, Access::ComputeWrite);
+    // Whoever made and read the pictures of the frame before.
+    cmd.barrier(Access::ComputeWrite, Access::ComputeWrite);
+    cmd.barrier(Access::TransferRead, Access::ComputeWrite);
     ViewImages result;
     for (std::size_t i = 0; i < views.size(); ++i) {
         const uvec2 size = views[i].size;
         const vk::DeviceSize pixels = vk::DeviceSize{size.x} * size.y;
         Buffers& buffers = buffers_[i];
-        if (buffers.resolved.size() < pixels * sizeof(shared::ResolvedPixel)) {
-            device_.vk().waitIdle();
-            const auto make = [&](const char* name, vk::DeviceSize bytes) {
-                return gpu::Buffer(device_, name + (" of view " + std::to_string(i)), pixels * bytes,
-                                   gpu::Residence::Device);
-            };
-            buffers.resolved = make("resolved pixels", sizeof(shared::ResolvedPixel));
-            buffers.color = make("colour", sizeof(std::uint32_t));
-            buffers.depth = make("depth", sizeof(float));
-        }
-        result.images.push_back(
-            {buffers.resolved.address(), buffers.color.address(), buffers.depth.address(), size});
-        result.buffers.push_back({&buffers.resolved, &buffers.color, &buffers.depth});
+        grow(device_, buffers.resolved, "resolved pixels", pixels * sizeof(shared::ResolvedPixel));
+        grow(device_, buffers.color, "colour", pixels * sizeof(std::uint32_t));
+        grow(device_, buffers.depth, "depth", pixels * sizeof(float));
+        if (real_surfaces)
+            grow(device_, buffers.real, "resolved real pixels", pixels * sizeof(shared::ResolvedRealPixel));
+        result.images.push_back({buffers.resolved.address(), real_surfaces ? buffers.real.address() : 0,
+                                 buffers.color.address(), buffers.depth.address(), size});
+        result.buffers.push_back(
+            {&buffers.resolved, real_surfaces ? &buffers.real : nullptr, &buffers.color, &buffers.depth});
 
         shared::ResolvePush push{};
         push.grid = grid.at(0);
@@ -50,6 +46,8 @@ ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& lig
         push.guides = light.guides;
         push.layers = light.packed_layers;
         push.resolved = buffers.resolved.address();
+        push.real = result.images.back().real;
+        push.depth = buffers.depth.address();
         push.view = static_cast<std::uint32_t>(i);
         push.filter_kind =
             settings.resolve_filter == "bilinear" ? shared::RESOLVE_BILINEAR : shared::RESOLVE_BICUBIC;

@@ -18,13 +18,14 @@ class ResolveStage {
   public:
     ResolveStage(const gpu::Device& device, const gpu::TextureTable& textures);
 
-    /// `views` as the grid was made for. Compute shaders recorded afterwards see the result.
+    /// `views` as the grid was made for; `real_surfaces`: the scene has some. Compute shaders recorded
+    /// afterwards see the result.
     ViewImages record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
-                      std::span<const View> views, const Settings& settings);
+                      std::span<const View> views, bool real_surfaces, const Settings& settings);
 
   private:
     struct Buffers {
-        gpu::Buffer resolved, color, depth;
+        gpu::Buffer resolved, real, color, depth;
     };
     const gpu::Device& device_;
     gpu::ComputePipeline pipeline_;

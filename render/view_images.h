@@ -11,6 +11,7 @@ namespace foveray::render {
 struct ViewImages {
     struct Buffers {
         const gpu::Buffer* resolved = nullptr;  // shared::ResolvedPixel
+        const gpu::Buffer* real = nullptr;      // shared::ResolvedRealPixel, or null
         const gpu::Buffer* color = nullptr;     // for the compositor to fill
         const gpu::Buffer* depth = nullptr;
     };

@@ -79,9 +79,9 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
                                       shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    light = history_.record(
-        cmd, {grid, hits, light, !gpu_scene_.scene().real_surfaces.empty(), frame.display_time, settings});
-    images_ = resolve_.record(cmd, light, grid, frame.views, settings);
+    const bool real_surfaces = !gpu_scene_.scene().real_surfaces.empty();
+    light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
+    images_ = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
     compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
                        passthrough::Background::Environment, settings);
     counters_.read_back(cmd, slot);

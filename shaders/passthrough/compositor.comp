@@ -49,10 +49,14 @@ void main() {
     uint index = pixel.y * push.size.x + pixel.x;
     ResolvedPixel resolved = ResolvedPixelArray(push.resolved).at[index];
     vec4 radiance = unpack_halves(resolved.radiance);
-    vec4 transmittance = unpack_halves(resolved.transmittance);
-    vec3 added = unpack_halves(resolved.added).rgb;
     float coverage = clamp(radiance.a, 0.0, 1.0);
-    bool visible = transmittance.a > 0.0;
+    bool visible = radiance.a >= 0.0;
+    vec3 transmittance = vec3(1.0), added = vec3(0.0);
+    if (push.real != 0) {
+        ResolvedRealPixel real = ResolvedRealPixelArray(push.real).at[index];
+        transmittance = unpack_halves(real.transmittance).rgb;
+        added = unpack_halves(real.added).rgb;
+    }
 
     // Tone mapping is not linear: it sees the virtual colour without its coverage.
     vec3 color = vec3(0.0);
@@ -60,11 +64,12 @@ void main() {
     float alpha = 1.0;
     if (push.background == BACKGROUND_RUNTIME) {
         color += (1.0 - coverage) * push.exposure * added;
-        alpha = 1.0 - (1.0 - coverage) * dot(transmittance.rgb, vec3(0.2126, 0.7152, 0.0722));
+        alpha = 1.0 - (1.0 - coverage) * dot(transmittance, vec3(0.2126, 0.7152, 0.0722));
     } else if (visible && coverage < 1.0) {
-        color += (1.0 - coverage) * background(RoomParamsRef(push.room), view_direction(pixel), transmittance.rgb, added);
+        color += (1.0 - coverage) * background(RoomParamsRef(push.room), view_direction(pixel), transmittance, added);
     }
     vec4 encoded = visible ? vec4(srgb_from_linear(color), alpha) : vec4(0.0, 0.0, 0.0, 1.0);
     UintArray(push.color).at[index] = packUnorm4x8(encoded);
-    FloatArray(push.depth).at[index] = projected_depth(resolved.depth);
+    FloatArray depth = FloatArray(push.depth);
+    depth.at[index] = projected_depth(depth.at[index]);
 }

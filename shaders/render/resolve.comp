@@ -124,12 +124,11 @@ void write_pixel(uint index, Filtered sum, float depth) {
     float coverage = clamp(sum.radiance.a * scale, 0.0, 1.0);
     vec3 transmittance = seen_scale > 0.0 ? clamp(sum.transmitted * seen_scale, 0.0, 1.0) : vec3(1.0);
     vec3 added = max(sum.added * seen_scale, vec3(0.0));
-    ResolvedPixel pixel;
-    pixel.radiance = pack_light(vec4(radiance, coverage));
-    pixel.transmittance = pack_light(vec4(transmittance, 1.0));
-    pixel.added = pack_light(vec4(added, 0.0));
-    pixel.depth = depth;
-    ResolvedPixelArray(push.resolved).at[index] = pixel;
+    ResolvedPixelArray(push.resolved).at[index] = ResolvedPixel(pack_light(vec4(radiance, coverage)));
+    FloatArray(push.depth).at[index] = depth;
+    if (push.real == 0) return;
+    ResolvedRealPixelArray(push.real).at[index] =
+        ResolvedRealPixel(pack_light(vec4(transmittance, 0.0)), pack_light(vec4(added, 0.0)));
 }
 
 void tint(inout Filtered sum, vec3 color, float part) {
@@ -147,8 +146,9 @@ void main() {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(view.size);
     const float infinity = uintBitsToFloat(0x7F800000u);
     if (hidden_at(view, uv)) {
-        uvec2 nothing = uvec2(0);
-        ResolvedPixelArray(push.resolved).at[index] = ResolvedPixel(nothing, nothing, nothing, infinity);
+        ResolvedPixelArray(push.resolved).at[index] = ResolvedPixel(pack_light(vec4(vec3(0.0), -1.0)));
+        FloatArray(push.depth).at[index] = infinity;
+        if (push.real != 0) ResolvedRealPixelArray(push.real).at[index] = ResolvedRealPixel(uvec2(0), uvec2(0));
         return;
     }
     vec3 direction = view_direction(view, uv);

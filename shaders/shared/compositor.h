@@ -14,7 +14,9 @@ FOVERAY_CONST uint TONE_MAPPING_NONE = 0u;
 FOVERAY_CONST uint TONE_MAPPING_NEUTRAL = 1u;
 
 struct CompositorPush {
-    uint64_t resolved;  // as in ViewImage
+    // As in ViewImage.
+    uint64_t resolved;
+    uint64_t real;
     uint64_t color;
     uint64_t depth;
     uint64_t room;        // RoomParams
@@ -34,7 +36,7 @@ struct CompositorPush {
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::CompositorPush) == 120);
+static_assert(sizeof(foveray::shared::CompositorPush) == 128);
 #endif
 
 #endif

@@ -18,7 +18,10 @@ struct ResolvePush {
     uint64_t samples;   // LightSample[], of pixel grids
     uint64_t packed;    // light of polar grids: history.h
     uint64_t guides;    // SampleGuide[], of polar grids
-    uint64_t resolved;  // ResolvedPixel[height][width], written
+    // Written: as in ViewImage.
+    uint64_t resolved;
+    uint64_t real;
+    uint64_t depth;
     uint view;
     uint filter_kind;
     uint debug_view;
@@ -28,7 +31,7 @@ struct ResolvePush {
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::ResolvePush) == 56);
+static_assert(sizeof(foveray::shared::ResolvePush) == 72);
 #endif
 
 #endif

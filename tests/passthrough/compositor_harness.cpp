@@ -14,17 +14,23 @@ Composite CompositorTest::compose(const CompositorSetup& setup) {
     const std::size_t count = std::size_t{size.x} * size.y;
 
     gpu::Buffer resolved(device(), "resolved", count * sizeof(shared::ResolvedPixel), gpu::Residence::Upload);
+    gpu::Buffer real(device(), "real", count * sizeof(shared::ResolvedRealPixel), gpu::Residence::Upload);
     std::vector<shared::ResolvedPixel> pixels;
+    std::vector<shared::ResolvedRealPixel> reals;
+    std::vector<float> distances;
     for (std::uint32_t y = 0; y < size.y; ++y) {
         for (std::uint32_t x = 0; x < size.x; ++x) {
             const VirtualPixel p = setup.virtual_part(x, y);
-            pixels.push_back({halves(p.radiance), halves({p.transmittance, p.visible ? 1.0f : 0.0f}),
-                              halves({p.added, 0.0f}), p.depth});
+            pixels.push_back({halves(p.visible ? p.radiance : vec4(vec3(p.radiance), -1.0f))});
+            reals.push_back({halves({p.transmittance, 0.0f}), halves({p.added, 0.0f})});
+            distances.push_back(p.depth);
         }
     }
     resolved.write(gpu::range_bytes(pixels));
+    real.write(gpu::range_bytes(reals));
     gpu::Buffer color(device(), "color", count * 4, gpu::Residence::Readback);
     gpu::Buffer depth(device(), "depth", count * 4, gpu::Residence::Readback);
+    depth.write(gpu::range_bytes(distances));
 
     gpu::TextureTable textures(device());
     gpu::Buffer scene(device(), "scene", sizeof(shared::SceneData), gpu::Residence::Upload);
@@ -47,7 +53,7 @@ Composite CompositorTest::compose(const CompositorSetup& setup) {
 
     RoomStage room_stage(device(), textures, 1, setup.calibration, setup.surfaces, setup.far_distance);
     const Compositor compositor(device(), textures);
-    shared::ViewImage image{resolved.address(), color.address(), depth.address(), size};
+    shared::ViewImage image{resolved.address(), real.address(), color.address(), depth.address(), size};
     gpu::submit_and_wait(device(), [&](const gpu::Commands& cmd) {
         const Room room = room_stage.record(cmd, 0, setup.moment, setup.settings);
         compositor.record(cmd, std::span(&setup.view, 1), std::span(&image, 1), room,

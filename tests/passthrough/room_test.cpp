@@ -207,8 +207,7 @@ TEST_F(RoomTest, ANewPictureReplacesTheOneBefore) {
     const uvec2 size(8, 8);
     RoomStage room_stage(device(), textures, 2, default_calibration(size), {}, 10.0f);
     const Compositor compositor(device(), textures);
-    const std::vector<shared::ResolvedPixel> nothing(
-        64, {{0, 0}, {glm::packHalf2x16(vec2(1)), glm::packHalf2x16(vec2(1))}, {0, 0}, 1.0f});
+    const std::vector<shared::ResolvedPixel> nothing(64, {{0, 0}});
     gpu::Buffer resolved(device(), "resolved", 64 * sizeof(shared::ResolvedPixel), gpu::Residence::Upload);
     resolved.write(gpu::range_bytes(nothing));
     const View view = wide_view(size);
@@ -222,7 +221,8 @@ TEST_F(RoomTest, ANewPictureReplacesTheOneBefore) {
         gpu::FrameRing ring(device(), 2);
         for (std::size_t i = 0; i < shown.size(); ++i) {
             colors.emplace_back(device(), "color " + std::to_string(i), 64 * 4, gpu::Residence::Readback);
-            const shared::ViewImage image{resolved.address(), colors.back().address(), depth.address(), size};
+            const shared::ViewImage image{resolved.address(), 0, colors.back().address(), depth.address(),
+                                          size};
             const gpu::Commands cmd = ring.begin();
             const Room room = room_stage.record(cmd, ring.slot(), {shown[i], {}, {}}, Settings{});
             EXPECT_EQ(room.has_picture, shown[i] != nullptr);

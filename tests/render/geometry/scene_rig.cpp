@@ -79,7 +79,7 @@ std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Se
                                                    {grid, hits.surfaces, shadows, frame.scene_data, 0,
                                                     counters_.address(), shadows_.noise(), 0, settings},
                                                    0);
-    const ViewImages images = resolve_.record(cmd, light, grid, {&view, 1}, settings);
+    const ViewImages images = resolve_.record(cmd, light, grid, {&view, 1}, false, settings);
     cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
     cmd->copyBuffer(images.buffers[0].resolved->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
     cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);

@@ -16,12 +16,13 @@ std::vector<T> as(const std::vector<std::byte>& bytes) {
 
 vec4 unpack(uvec2 halves) { return {glm::unpackHalf2x16(halves.x), glm::unpackHalf2x16(halves.y)}; }
 
-Pixel unpack(const shared::ResolvedPixel& resolved) {
-    const vec4 radiance = unpack(resolved.radiance), transmittance = unpack(resolved.transmittance);
-    return {
-        vec3(radiance), radiance.w, vec3(transmittance), transmittance.w > 0.0f, vec3(unpack(resolved.added)),
-        resolved.depth};
+Pixel unpack(const shared::ResolvedPixel& resolved, const shared::ResolvedRealPixel& real, float depth) {
+    const vec4 radiance = unpack(resolved.radiance);
+    return {vec3(radiance),  std::max(radiance.w, 0.0f), vec3(unpack(real.transmittance)),
+            radiance.w >= 0, vec3(unpack(real.added)),   depth};
 }
+
+const glm::uvec2 halves_of_one = uvec2(glm::packHalf2x16(vec2(1.0f)));
 
 }  // namespace
 
@@ -116,7 +117,7 @@ Rendered LightRig::render(const Shot& shot) {
         if (!shot.paint) {
             const LightLayers settled =
                 history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
-            images = resolve_.record(cmd, settled, result.grid, shot.views, shot.settings);
+            images = resolve_.record(cmd, settled, result.grid, shot.views, real, shot.settings);
         }
         ring_.submit();
         ring_.wait();
@@ -133,16 +134,24 @@ Rendered LightRig::render(const Shot& shot) {
         const gpu::Commands cmd = ring_.begin();
         const LightLayers settled =
             history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
-        images = resolve_.record(cmd, settled, result.grid, shot.views, shot.settings);
+        images = resolve_.record(cmd, settled, result.grid, shot.views, real, shot.settings);
         ring_.submit();
         ring_.wait();
     }
     for (std::size_t i = 0; i < shot.views.size(); ++i) {
         Picture picture{shot.views[i].size, {}};
-        const std::size_t bytes =
-            std::size_t{picture.size.x} * picture.size.y * sizeof(shared::ResolvedPixel);
-        for (const auto& pixel : as<shared::ResolvedPixel>(read(*images.buffers[i].resolved, bytes)))
-            picture.pixels.push_back(unpack(pixel));
+        const std::size_t count = std::size_t{picture.size.x} * picture.size.y;
+        const auto& buffers = images.buffers[i];
+        const auto resolved =
+            as<shared::ResolvedPixel>(read(*buffers.resolved, count * sizeof(shared::ResolvedPixel)));
+        const auto depth = as<float>(read(*buffers.depth, count * sizeof(float)));
+        std::vector<shared::ResolvedRealPixel> reals(count, {halves_of_one, uvec2(0)});
+        if (buffers.real) {
+            reals =
+                as<shared::ResolvedRealPixel>(read(*buffers.real, count * sizeof(shared::ResolvedRealPixel)));
+        }
+        for (std::size_t p = 0; p < count; ++p)
+            picture.pixels.push_back(unpack(resolved[p], reals[p], depth[p]));
         result.views.push_back(std::move(picture));
     }
     return result;
