@@ -17,11 +17,10 @@ class RayCounters {
   public:
     RayCounters(const gpu::Device& device, std::uint32_t slots);
 
-    vk::DeviceAddress address() const {
-        return counters_.address();
-    }  // uint[RAY_COUNTER_KINDS][RAY_COUNTER_SLOTS]
-    /// Before the frame's first ray.
-    void clear(const gpu::Commands& cmd) const;
+    /// uint[RAY_COUNTER_KINDS][RAY_COUNTER_SLOTS], and where the log of rays is (shaders/shared/ray_log.h)
+    vk::DeviceAddress address() const { return counters_.address(); }
+    /// Before the frame's first ray. `log`: a shared::RayLog for the frame's rays, or 0.
+    void clear(const gpu::Commands& cmd, vk::DeviceAddress log = 0) const;
     /// After its last one.
     void read_back(const gpu::Commands& cmd, std::uint32_t slot) const;
     /// Of the slot's newest frame that the GPU has finished.

@@ -10,7 +10,7 @@ RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const User
     engine::SceneProgram program("scene", RayType{"surface", "render/surface.rmiss"},
                                  RayType{"shadow", "render/shadow.rmiss"});
     const ShapeTypes shapes(program, scene, users);
-    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}, {}, {}};
+    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}, {}, {}, {}};
     d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
         "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
         HitGroup{"", "render/shadow.rahit", ""});
@@ -23,6 +23,7 @@ RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const User
     d.shadows.penumbras = d.program.add_ray_generation("render/penumbras.rgen");
     d.shadows.penumbra_rays = d.program.add_ray_generation("render/penumbra_rays.rgen");
     d.lighting = d.program.add_ray_generation("render/lighting.rgen");
+    d.bare_rays = d.program.add_ray_generation("render/bare_rays.rgen");
     return d;
 }
 

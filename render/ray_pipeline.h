@@ -32,6 +32,7 @@ class RayPipeline {
     engine::RayGeneration probes() const { return declared_.probes; }
     ShadowStage::Entries shadows() const { return declared_.shadows; }
     engine::RayGeneration lighting() const { return declared_.lighting; }
+    engine::RayGeneration bare_rays() const { return declared_.bare_rays; }
 
     engine::SceneRayTracer& tracer() { return tracer_; }
     const engine::SceneRayTracer& tracer() const { return tracer_; }
@@ -44,7 +45,7 @@ class RayPipeline {
         engine::GeometryType<shared::CatcherRecord> catchers;
         engine::RayGeneration fixation, probes, primary;
         ShadowStage::Entries shadows;
-        engine::RayGeneration lighting;
+        engine::RayGeneration lighting, bare_rays;
     };
     static Declared declare(const scene::Scene& scene, const UserShaders& users);
 

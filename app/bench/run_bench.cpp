@@ -20,7 +20,7 @@ constexpr int warm_up_frames = 5;
 struct Result {
     std::string name;
     std::vector<std::pair<std::string, Spread>> stages;
-    Spread gpu_ms, cpu_ms;
+    Spread gpu_ms, cpu_ms, bare_ms;
     std::size_t frames = 0;
     render::RayCounts rays{};
     std::uint64_t memory_bytes = 0;
@@ -55,6 +55,26 @@ std::vector<ShotCost> measure(Offscreen& offscreen, Shot shot, double frame_ms, 
         options.quick ? 1 : warm_up_frames;  // a driver may still compile in the first
     costs.erase(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(skipped));
     return costs;
+}
+
+/// The frame's rays alone. Empty when they are too many to be kept.
+Spread measure_bare(Offscreen& offscreen, Shot shot, const render::RayCounts& counts, int frames) {
+    std::uint64_t rays = 0;
+    for (const std::uint64_t kind : counts) rays += kind;
+    constexpr std::uint64_t most = 80'000'000;  // 2.5 GB
+    if (rays > most) return {};
+    shot.bare_rays = static_cast<std::uint32_t>(rays + rays / 4);  // their number differs from frame to frame
+    std::vector<double> times;
+    const auto add = [&](const ShotCost& cost) {
+        for (const gpu::StageTime& stage : cost.stages) {
+            if (stage.name == "bare") times.push_back(stage.milliseconds);
+        }
+    };
+    for (int frame = 0; frame < frames; ++frame) {
+        if (const auto cost = offscreen.draw(shot)) add(*cost);
+    }
+    for (const ShotCost& cost : offscreen.finish()) add(cost);
+    return spread_of(std::move(times));
 }
 
 Result summarize(const BenchRow& row, const std::vector<ShotCost>& costs, std::uint64_t memory) {
@@ -100,13 +120,16 @@ Result run_row(const gpu::Device& device, user_shapes::ShapeStore& shapes, const
     Offscreen offscreen(device, scene, 2, shapes.prepare(scene));
     const std::vector<ShotCost> costs = measure(offscreen, shot, row.frame_ms, options);
     const std::uint64_t memory = gpu::used_memory(device) - before;
+    const Spread bare = measure_bare(offscreen, shot, costs.back().rays, options.quick ? 1 : 10);
     if (!options.out.empty()) {
         for (std::size_t view = 0; view < shot.views.size(); ++view) {
             write_png(options.out / fmt::format("{}_view{}.png", file_name(row.name), view),
                       offscreen.picture(view));
         }
     }
-    return summarize(row, costs, memory);
+    Result result = summarize(row, costs, memory);
+    result.bare_ms = bare;
+    return result;
 }
 
 Json to_json(const Spread& spread) { return {{"median", spread.median}, {"p99", spread.p99}}; }
@@ -117,6 +140,7 @@ Json to_json(const Result& r) {
     return {{"row", r.name},
             {"gpu_ms", to_json(r.gpu_ms)},
             {"cpu_ms", to_json(r.cpu_ms)},
+            {"bare_ms", to_json(r.bare_ms)},
             {"stages_ms", stages},
             {"frames", r.frames},
             {"memory_bytes", r.memory_bytes},
@@ -135,8 +159,8 @@ constexpr std::array columns = {"probes", "primary", "shadows", "lighting", "his
 void print_header() {
     std::cout << "| row | GPU ms | 99 % |";
     for (const char* name : columns) std::cout << ' ' << name << " |";
-    std::cout << " other | Mrays | CPU ms | MB |\n|";
-    for (std::size_t i = 0; i < columns.size() + 7; ++i) std::cout << " --- |";
+    std::cout << " other | Mrays | bare | CPU ms | MB |\n|";
+    for (std::size_t i = 0; i < columns.size() + 8; ++i) std::cout << " --- |";
     std::cout << '\n';
 }
 
@@ -152,8 +176,8 @@ void print(const Result& r) {
     }
     std::uint64_t rays = 0;
     for (const std::uint64_t kind : r.rays) rays += kind;
-    std::cout << fmt::format(" {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", std::max(other, 0.0),
-                             static_cast<double>(rays) * 1e-6, r.cpu_ms.median,
+    std::cout << fmt::format(" {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", std::max(other, 0.0),
+                             static_cast<double>(rays) * 1e-6, r.bare_ms.median, r.cpu_ms.median,
                              static_cast<double>(r.memory_bytes) / (1 << 20))
               << std::flush;
 }

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "render/grow.h"
 #include "render/polar_map.h"
+#include "shaders/shared/ray_log.h"
 
 namespace foveray::app {
 namespace {
@@ -58,7 +60,8 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     const Settings& settings = shot.settings;
     const render::Fovea fovea{shot.gaze_origin, shot.gaze_direction, 0.0f, true};
 
-    counters_.clear(cmd);
+    if (shot.bare_rays > 0) empty_log(cmd, shot.bare_rays);
+    counters_.clear(cmd, shot.bare_rays > 0 ? ray_log_.address() : 0);
     const auto& changes = animator_.advance(shot.time);
     const auto scene = gpu_scene_.record(cmd, slot, changes, {});
     accel_scene_.record(cmd, slot, scene, pipeline_,
@@ -85,10 +88,29 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
                        passthrough::Background::Environment, settings);
     counters_.read_back(cmd, slot);
+    if (shot.bare_rays > 0) trace_bare(cmd);
     ring_.submit();
     const std::chrono::duration<double, std::milli> cpu = std::chrono::steady_clock::now() - start;
     pending_cpu_ms_[slot] = cpu.count();
     return earlier;
+}
+
+void Offscreen::empty_log(const gpu::Commands& cmd, std::uint32_t most) {
+    render::grow(device_, ray_log_, "ray log",
+                 sizeof(shared::RayLog) + vk::DeviceSize{most} * sizeof(shared::LoggedRay));
+    cmd.barrier(gpu::Access::RayTracingRead, gpu::Access::TransferWrite);
+    cmd.barrier(gpu::Access::IndirectRead, gpu::Access::TransferWrite);
+    const shared::RayLog empty{0, 1, 1, most};
+    cmd->updateBuffer<shared::RayLog>(ray_log_.vk(), 0, empty);
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::RayTracingWrite);
+}
+
+void Offscreen::trace_bare(const gpu::Commands& cmd) const {
+    cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::RayTracingRead);
+    cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::IndirectRead);
+    const auto stage = cmd.stage("bare");
+    pipeline_.tracer().trace_indirect(cmd, pipeline_.bare_rays(), shared::BareRaysPush{ray_log_.address()},
+                                      ray_log_.address());
 }
 
 std::optional<ShotCost> Offscreen::collect(std::uint32_t slot) {

@@ -31,6 +31,9 @@ struct Shot {
     vec3 gaze_direction{0.0f, 0.0f, -1.0f};
     Nanoseconds time = 0;
     Settings settings;
+    // Not 0: so many of the frame's rays are kept, and traced once more at its end without shading: stage
+    // "bare". The other stages' times are not to be trusted then.
+    std::uint32_t bare_rays = 0;
 };
 
 /// What a frame cost.
@@ -59,6 +62,8 @@ class Offscreen {
 
   private:
     std::optional<ShotCost> collect(std::uint32_t slot);
+    void empty_log(const gpu::Commands& cmd, std::uint32_t most);
+    void trace_bare(const gpu::Commands& cmd) const;
 
     const gpu::Device& device_;
     gpu::FrameRing ring_;
@@ -78,6 +83,7 @@ class Offscreen {
     render::ResolveStage resolve_;
     passthrough::Compositor compositor_;
     render::ViewImages images_;
+    gpu::Buffer ray_log_;
     std::uint64_t frame_ = 0;
     std::vector<std::optional<double>> pending_cpu_ms_;  // by slot: its frame's cost is not told yet
 };

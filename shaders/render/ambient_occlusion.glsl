@@ -3,6 +3,7 @@
 #define FOVERAY_RENDER_AMBIENT_OCCLUSION_GLSL
 
 #include "shaders/render/brdf.glsl"
+#include "shaders/render/log_rays.glsl"
 #include "shaders/render/low_discrepancy.glsl"
 #include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_shadow.glsl"
@@ -35,6 +36,7 @@ float ambient_visibility(Surface surface, vec2 turn) {
         // A mapped normal may send it below the surface, where nothing is to be learned.
         if (dot(direction, surface.geometric_normal) <= 0.0) direction = reflect(direction, surface.geometric_normal);
         ++occlusion_ray_count;
+        log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, direction, push.occlusion_radius);
         seen += greatest(trace_shadow(MASK_VIRTUAL, origin, direction, push.occlusion_radius, cone));
     }
     return seen / float(push.occlusion_samples);

@@ -4,6 +4,7 @@
 #ifndef FOVERAY_RENDER_LIGHT_PATH_GLSL
 #define FOVERAY_RENDER_LIGHT_PATH_GLSL
 
+#include "shaders/render/log_rays.glsl"
 #include "shaders/render/optics.glsl"
 #include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_surface.glsl"
@@ -52,6 +53,7 @@ Surface trace_waiting(out Path path, out vec3 origin) {
     origin = next.origin;
     uint mask = path.kind == PATH_ADDED ? MASK_VIRTUAL : MASK_ALL;
     uint faces = path.medium == NO_MEDIUM ? SEE_FRONT_FACES : SEE_BOTH_FACES;
+    log_ray(faces, mask, origin, path.direction, FARTHEST);
     return trace_surface(mask, faces, origin, path.direction, FARTHEST, RayCone(next.width, path.spread));
 }
 

@@ -3,6 +3,7 @@
 #define FOVERAY_RENDER_LIGHT_VISIBILITY_GLSL
 
 #include "shaders/render/area_light.glsl"
+#include "shaders/render/log_rays.glsl"
 #include "shaders/render/low_discrepancy.glsl"
 #include "shaders/render/punctual_light.glsl"
 #include "shaders/render/surface_sides.glsl"
@@ -21,6 +22,7 @@ vec3 light_between(vec3 origin, vec3 target, RayCone cone) {
     vec3 way = target - origin;
     float length_of_way = length(way);
     ++shadow_ray_count;
+    log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999);
     return trace_shadow(MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999, cone);
 }
 

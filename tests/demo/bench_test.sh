@@ -17,7 +17,7 @@ assert rows, "no rows"
 for row in rows:
     assert "sphere, " in row["row"], row["row"]
     assert row["frames"] > 0 and row["gpu_ms"]["median"] > 0 and row["rays"]["primary"] > 0, row
-    assert row["memory_bytes"] > 0 and row["stages_ms"]["primary"]["median"] > 0, row
+    assert row["memory_bytes"] > 0 and row["bare_ms"]["median"] > 0 and row["stages_ms"]["primary"]["median"] > 0, row
 PYTHON
 [ -s "$work/out/bench.json" ] || { echo "no bench.json"; exit 1; }
 ls "$work"/out/*.png >/dev/null || { echo "no picture"; exit 1; }
