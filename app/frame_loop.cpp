@@ -33,25 +33,21 @@ void point_gaze(Frame& frame, vec2 pointer) {
 FrameLoop::FrameLoop(const FrameLoopSetup& setup)
     : device_(setup.device),
       headset_(setup.headset),
-      scene_(setup.scene),
       camera_(setup.camera),
       every_pixel_(setup.every_pixel),
       acuity_(setup.acuity),
-      world_from_stage_(setup.scene.world_from_stage),
+      world_from_stage_(setup.scene->world_from_stage),
       ring_(setup.device, setup.frames_in_flight),
       textures_(setup.device),
       counters_(setup.device, setup.frames_in_flight),
-      pipeline_(make_pipeline(setup.user_shaders)),
-      animator_(setup.scene),
-      gpu_scene_(setup.device, textures_, setup.scene, setup.frames_in_flight),
-      accel_scene_(setup.device, gpu_scene_, pipeline_, setup.frames_in_flight),
-      room_(setup.device, textures_, setup.frames_in_flight, setup.calibration, room_proxies(setup.scene),
+      live_(setup.device, textures_, setup.frames_in_flight, setup.scene, setup.user_shaders),
+      room_(setup.device, textures_, setup.frames_in_flight, setup.calibration, room_proxies(*setup.scene),
             room_distance),
-      probes_(setup.device, textures_, setup.scene, pipeline_.tracer(), pipeline_.probes()),
-      sampling_(setup.device, setup.frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
-      primary_(setup.device, pipeline_.tracer(), pipeline_.primary()),
-      shadows_(setup.device, textures_, pipeline_.tracer(), pipeline_.shadows()),
-      lighting_(setup.device, pipeline_.tracer(), pipeline_.lighting()),
+      probes_(setup.device, textures_, *setup.scene, live_.pipeline().tracer(), live_.pipeline().probes()),
+      sampling_(setup.device, setup.frames_in_flight, live_.pipeline().tracer(), live_.pipeline().fixation()),
+      primary_(live_.pipeline().tracer(), live_.pipeline().primary()),
+      shadows_(setup.device, textures_, live_.pipeline().tracer(), live_.pipeline().shadows()),
+      lighting_(live_.pipeline().tracer(), live_.pipeline().lighting()),
       history_(setup.device, textures_),
       resolve_(setup.device, textures_),
       compositor_(setup.device, textures_),
@@ -73,11 +69,11 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
     const Settings settings = settings_of(frame);
     counters_.clear(cmd);
 
-    const auto& changes = animator_.advance(frame.time);
-    const auto scene = gpu_scene_.record(cmd, slot, changes, world_from_stage_);
+    const auto& changes = live_.animator().advance(frame.time);
+    const auto scene = live_.gpu().record(cmd, slot, changes, world_from_stage_);
     const auto fovea = foveation_.update(frame, settings);
-    accel_scene_.record(cmd, slot, scene, pipeline_,
-                        {frame, world_from_stage_, fovea, *acuity_, settings, every_pixel_});
+    live_.accel().record(cmd, slot, scene, live_.pipeline(),
+                         {frame, world_from_stage_, fovea, *acuity_, settings, every_pixel_});
     const auto room = room_.record(cmd, slot, room_moment(frame), settings);
     const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
     const auto grid = sampling_.record(
@@ -95,7 +91,7 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
                                       counters_.address(), shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    const bool real_surfaces = !scene_.real_surfaces.empty();
+    const bool real_surfaces = !live_.scene().real_surfaces.empty();
     light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
     const auto images = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
     compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
@@ -111,14 +107,11 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
     return {std::move(frame), true, images};
 }
 
-render::RayPipeline FrameLoop::make_pipeline(const render::UserShaders& user_shaders) const {
-    return render::RayPipeline(device_, textures_, ring_.size(), scene_, user_shaders);
-}
-
-void FrameLoop::use(render::RayPipeline pipeline) {
-    wait();
-    accel_scene_.fill_table(pipeline);
-    std::swap(pipeline_, pipeline);  // in place: the stages keep their references to it
+void FrameLoop::show(render::LiveScene::Next next) {
+    live_.show(ring_, std::move(next));
+    world_from_stage_ = live_.scene().world_from_stage;
+    room_.set_surfaces(room_proxies(live_.scene()));
+    probes_.set_grid(live_.scene().probes);
 }
 
 passthrough::RoomMoment FrameLoop::room_moment(const Frame& frame) {

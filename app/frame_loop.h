@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,15 +12,13 @@
 #include "base/headset_profile.h"
 #include "passthrough/camera_source.h"
 #include "passthrough/compositor.h"
-#include "render/accel_scene.h"
 #include "render/foveation.h"
-#include "render/gpu_scene.h"
 #include "render/history.h"
 #include "render/lighting.h"
+#include "render/live_scene.h"
 #include "render/primary.h"
 #include "render/probes.h"
 #include "render/ray_counters.h"
-#include "render/ray_pipeline.h"
 #include "render/resolve.h"
 #include "render/sampling.h"
 #include "render/shadows.h"
@@ -30,7 +29,7 @@ namespace foveray::app {
 struct FrameLoopSetup {
     const gpu::Device& device;
     xr::Headset& headset;  // started
-    const scene::Scene& scene;
+    std::shared_ptr<const scene::Scene> scene;
     passthrough::CameraSource* camera = nullptr;  // null: none
     std::optional<passthrough::Calibration> calibration;
     std::optional<Acuity> acuity;  // empty: made from the first frame's views
@@ -45,6 +44,8 @@ class FrameLoop {
   public:
     explicit FrameLoop(const FrameLoopSetup& setup);
     ~FrameLoop() { wait(); }  // the stages' buffers may still be in use
+    FrameLoop(const FrameLoop&) = delete;
+    FrameLoop& operator=(const FrameLoop&) = delete;
 
     struct Step {
         Frame frame;
@@ -60,10 +61,16 @@ class FrameLoop {
         return step([&](const Frame&) { return settings; });
     }
 
-    /// What the frames could trace with if users' shapes were these. May be called on any thread.
-    render::RayPipeline make_pipeline(const render::UserShaders& user_shaders) const;
-    /// Frames trace with such a pipeline from here on. Waits for those that trace with the old one.
-    void use(render::RayPipeline pipeline);
+    /// Another scene, or the same with other users' shapes, for show(): on any thread, but not beside it.
+    render::LiveScene::Next prepare(std::shared_ptr<const scene::Scene> scene,
+                                    const render::UserShaders& user_shaders) const {
+        return live_.prepare(std::move(scene), user_shaders);
+    }
+    /// Steps from the next one on show it. Time goes on, and so does what is the same: probes that stay where
+    /// they were, what earlier frames saw of things that are still there.
+    void show(render::LiveScene::Next next);
+    /// As LiveScene::content().
+    std::shared_ptr<const void> content() const { return live_.content(); }
 
     /// Waits until the GPU has finished everything.
     void wait();
@@ -77,7 +84,6 @@ class FrameLoop {
 
     const gpu::Device& device_;
     xr::Headset& headset_;
-    const scene::Scene& scene_;
     passthrough::CameraSource* camera_;
     bool every_pixel_;
     std::optional<Acuity> acuity_;
@@ -87,10 +93,7 @@ class FrameLoop {
     gpu::FrameRing ring_;
     gpu::TextureTable textures_;
     render::RayCounters counters_;
-    render::RayPipeline pipeline_;
-    scene::SceneAnimator animator_;
-    render::GpuScene gpu_scene_;
-    render::AccelScene accel_scene_;
+    render::LiveScene live_;
     passthrough::RoomStage room_;
     render::Foveation foveation_;
     render::ProbeStage probes_;

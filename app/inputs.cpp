@@ -14,9 +14,10 @@ Inputs load_inputs(const PictureOptions& options, const Session* session) {
     } else {
         inputs.scene_file = assets_folder() / "scenes/demo.json";
     }
-    inputs.scene = scene::load_scene(inputs.scene_file);
+    inputs.scene =
+        std::make_shared<const scene::Scene>(scene::load_scene(inputs.scene_file, &inputs.scene_files));
     inputs.shapes = user_shapes::ShapeStore({.gpu = options.gpu, .validation = validation_wanted()});
-    inputs.user_shaders = inputs.shapes.prepare(inputs.scene);
+    inputs.user_shaders = inputs.shapes.prepare(*inputs.scene);
 
     // The session's calibration is that of the session's camera, not of another one.
     auto calibration = options.calibration;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "base/session.h"
@@ -15,7 +17,8 @@ namespace foveray::app {
 /// What a command shows: its own options first, then what the session was recorded with.
 struct Inputs {
     std::filesystem::path scene_file;
-    scene::Scene scene;
+    std::shared_ptr<const scene::Scene> scene;
+    std::vector<std::filesystem::path> scene_files;  // that the scene was read from
     user_shapes::ShapeStore shapes;
     render::UserShaders user_shaders;  // of the scene's files
     std::string camera_name;           // empty: none

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -55,6 +56,13 @@ class Video {
     std::optional<passthrough::VideoWriter> writer_;
 };
 
+void warn_of_edits(const Session& session) {
+    const auto edits = std::ranges::count(session.events, scene_changed_event, &Session::Event::name);
+    if (edits == 0) return;
+    log::warn("{}: the scene was edited {} times while this was recorded; the replay shows it as it is now",
+              session.folder.string(), edits);
+}
+
 }  // namespace
 
 ExitCode run_replay(const ReplayOptions& options) {
@@ -62,6 +70,7 @@ ExitCode run_replay(const ReplayOptions& options) {
     const HeadsetProfile profile = read_headset_profile(options.headset.value_or(session.headset));
     const FrameRange range = written_frames(options, session);
     Inputs inputs = load_inputs(options, &session);
+    warn_of_edits(session);
     StagedFolder out(options.out, "report.html");
 
     xr::SimulatorOptions simulator;

@@ -52,6 +52,10 @@ void SessionRecorder::add(const Session::QualitySample& quality) {
     session_.quality.push_back(quality);
 }
 
+void SessionRecorder::add_scene_change(const Frame& frame) {
+    session_.events.push_back({frame.time, std::string(scene_changed_event), ""});
+}
+
 void SessionRecorder::finish() {
     if (session_.frames == 0 || !knows_headset()) return;
     write_session(folder_.path(), session_);

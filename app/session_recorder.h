@@ -22,6 +22,8 @@ class SessionRecorder {
     void add(const Frame& frame);
     /// What a frame was traced with. Kept where it differs from the frame before.
     void add(const Session::QualitySample& quality);
+    /// The frame is the first that shows the scene as it was edited meanwhile.
+    void add_scene_change(const Frame& frame);
     /// Writes the folder; a recording without frames or without a headset leaves nothing.
     void finish();
 

@@ -8,8 +8,8 @@
 #include "app/mirror/mirror.h"
 #include "app/program.h"
 #include "app/quality_control.h"
+#include "app/scene_reload.h"
 #include "app/session_recorder.h"
-#include "app/shape_reload.h"
 #include "base/log.h"
 
 namespace foveray::app {
@@ -83,8 +83,7 @@ ExitCode run_view(const ViewOptions& options) {
     FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
                     inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt,
                     profile ? std::optional(profile->acuity) : std::nullopt, false, 2, inputs.user_shaders});
-    ShapeReload reload(inputs.scene, inputs.shapes, inputs.user_shaders,
-                       [&](const render::UserShaders& shaders) { return loop.make_pipeline(shaders); });
+    SceneReload reload(inputs, loop);
     std::optional<Mirror> mirror;
     if (window) mirror.emplace(device, *window);
     log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
@@ -104,7 +103,7 @@ ExitCode run_view(const ViewOptions& options) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(10));
                 continue;
             }
-            if (auto pipeline = reload.take()) loop.use(std::move(*pipeline));
+            const bool scene_changed = reload.show();
             std::optional<Session::QualitySample> traced_with;
             const auto settings_of = [&](const Frame& frame) {
                 const Settings used = quality.choose(settings, frame, loop.metrics());
@@ -117,6 +116,7 @@ ExitCode run_view(const ViewOptions& options) {
                              headset.instance().has_eye_tracking(), settings);
             }
             if (recorder) record(*recorder, headset, step.frame, profile);
+            if (recorder && scene_changed) recorder->add_scene_change(step.frame);
             if (recorder && traced_with) recorder->add(*traced_with);
         }
     };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/frame.h"
@@ -63,6 +64,9 @@ struct Session {
     /// The newest sample at or before `time`; empty before the first.
     std::optional<QualitySample> quality_at(Nanoseconds time) const;
 };
+
+/// The scene was edited, and shown as it was then from this time on.
+constexpr std::string_view scene_changed_event = "scene_changed";
 
 /// Throws Fault(BadInput) naming file, line and remedy: missing files, bad numbers, NaN poses, times that go
 /// backwards, a version from the future.

@@ -42,9 +42,7 @@ RoomStage::RoomStage(const gpu::Device& device, gpu::TextureTable& textures, std
                      const std::optional<Calibration>& calibration,
                      std::span<const shared::RoomProxy> surfaces, float far_distance)
     : textures_(textures), calibration_(calibration) {
-    const auto proxies = largest(surfaces);
-    std::copy(proxies.begin(), proxies.end(), params_.proxies);
-    params_.proxy_count = static_cast<std::uint32_t>(proxies.size());
+    set_surfaces(surfaces);
     params_.far_distance = far_distance;
     params_.picture = shared::NO_PICTURE;
     for (std::uint32_t i = 0; i < frames_in_flight; ++i) {
@@ -69,6 +67,12 @@ RoomStage::RoomStage(const gpu::Device& device, gpu::TextureTable& textures, std
     sampler.use_mips = false;
     sampler.u = sampler.v = vk::SamplerAddressMode::eClampToEdge;
     texture_ = textures.add(image_.view(), sampler);
+}
+
+void RoomStage::set_surfaces(std::span<const shared::RoomProxy> surfaces) {
+    const auto proxies = largest(surfaces);
+    std::copy(proxies.begin(), proxies.end(), params_.proxies);
+    params_.proxy_count = static_cast<std::uint32_t>(proxies.size());
 }
 
 RoomStage::~RoomStage() {

@@ -39,6 +39,9 @@ class RoomStage {
     RoomStage(const RoomStage&) = delete;
     RoomStage& operator=(const RoomStage&) = delete;
 
+    /// Other real surfaces, from the next record() on.
+    void set_surfaces(std::span<const shared::RoomProxy> surfaces);
+
     /// Uploads the picture when it is another one than before. Compute and ray-tracing shaders recorded
     /// afterwards see the result. `slot`: of the frame ring.
     Room record(const gpu::Commands& cmd, std::uint32_t slot, const RoomMoment& moment,

@@ -1,6 +1,7 @@
 #include "render/accel_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace foveray::render {
 namespace {
@@ -59,10 +60,6 @@ RayPipeline::Range table_range(const GpuScene& scene, const GpuStructure& struct
     return range;
 }
 
-bool lets_no_light_through(const scene::Material& material) {
-    return material.alpha_mode == scene::AlphaMode::Opaque && material.transmission == 0.0f;
-}
-
 /// What a geometry's material means to rays.
 struct Sides {
     bool double_sided = true;
@@ -72,13 +69,19 @@ struct Sides {
 Sides sides_of(const GpuScene& scene, const GpuStructure& structure, const GpuGeometry& geometry) {
     if (structure.kind == GpuStructure::Kind::RealSurface) return {};
     const scene::Material& material = scene.scene().materials[geometry.material];
-    return {material.double_sided, lets_no_light_through(material)};
+    return {material.double_sided, scene::is_opaque(material)};
+}
+
+std::uint32_t triangles_of(const GpuStructure& structure) {
+    std::uint32_t count = 0;
+    for (const GpuGeometry& g : structure.geometries) count += g.triangle_count;
+    return count;
 }
 
 gpu::BoxGeometry box_of(const GpuScene& scene, scene::ShapeId id) {
     const scene::Shape& shape = scene.scene().shapes[id];
     const auto is_opaque = [&](scene::MaterialId material) {
-        return lets_no_light_through(scene.scene().materials[material]);
+        return scene::is_opaque(scene.scene().materials[material]);
     };
     bool opaque = is_opaque(shape.material) && !shape.voxels;  // coarse voxels cover their place in part
     for (const scene::CsgLeaf& leaf : shape.solid.leaves) {
@@ -89,10 +92,10 @@ gpu::BoxGeometry box_of(const GpuScene& scene, scene::ShapeId id) {
 
 }  // namespace
 
-AccelScene::AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipeline& pipeline,
-                       std::uint32_t slots)
+AccelScene::AccelScene(const gpu::Device& device, const GpuScene& scene, const RayPipeline& pipeline,
+                       std::uint32_t slots, vk::DeviceSize portion)
     : scene_(scene), top_level_(device, "scene", slots) {
-    std::vector<gpu::BottomLevelInfo> infos;
+    std::vector<std::uint32_t> primitives, geometries;
     for (const GpuStructure& source : scene.structures()) {
         Structure structure;
         for (const GpuGeometry& g : source.geometries) {
@@ -108,20 +111,42 @@ AccelScene::AccelScene(const gpu::Device& device, const GpuScene& scene, RayPipe
                                                                  .indices = g.indices,
                                                                  .triangle_count = g.triangle_count,
                                                                  .opaque = opaque});
+            structure.opaque.push_back(opaque);
         }
         const bool is_shape = source.kind == GpuStructure::Kind::Shape;
         if (is_shape) structure.geometries.push_back(box_of(scene, source.source));
-        const bool deforms = source.kind == GpuStructure::Kind::DeformedMesh ||
-                             (is_shape && scene.scene().shapes[source.source].animated);
-        infos.push_back({source.name, structure.geometries, deforms});
+        primitives.push_back(is_shape ? 1 : triangles_of(source));
+        geometries.push_back(static_cast<std::uint32_t>(structure.geometries.size()));
         table_.push_back(table_range(scene, source, pipeline));
         structures_.push_back(std::move(structure));
     }
-    const std::vector<std::uint32_t> offsets = pipeline.tracer().set_table(table_);
-    std::vector<gpu::BottomLevel> levels = gpu::build_bottom_levels(device, infos);
+    const std::vector<std::uint32_t> offsets = engine::record_offsets(geometries, shared::RAY_TYPE_COUNT);
+    for (std::size_t i = 0; i < structures_.size(); ++i) structures_[i].record_offset = offsets[i];
+    plan_.emplace(std::move(primitives));
+    stale_.resize(structures_.size());
+    build(device, portion);
+}
+
+void AccelScene::build(const gpu::Device& device, vk::DeviceSize portion) {
+    std::vector<gpu::BottomLevelInfo> infos;
+    std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < structures_.size(); ++i) {
-        structures_[i].level = std::move(levels[i]);
-        structures_[i].record_offset = offsets[i];
+        const GpuStructure& source = scene_.structures()[i];
+        Structure& structure = structures_[i];
+        if (source.shared) structure.level = source.shared->built(source.level, structure.opaque);
+        if (structure.level) continue;
+        const bool deforms =
+            source.kind == GpuStructure::Kind::DeformedMesh ||
+            (source.kind == GpuStructure::Kind::Shape && scene_.scene().shapes[source.source].animated);
+        infos.push_back({source.name, structure.geometries, deforms});
+        missing.push_back(i);
+    }
+    std::vector<gpu::BottomLevel> levels = gpu::build_bottom_levels(device, infos, portion);
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+        const GpuStructure& source = scene_.structures()[missing[k]];
+        Structure& structure = structures_[missing[k]];
+        structure.level = std::make_shared<gpu::BottomLevel>(std::move(levels[k]));
+        if (source.shared) source.shared->keep(source.level, structure.opaque, structure.level);
     }
 }
 
@@ -137,10 +162,10 @@ void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuS
     for (std::size_t i = 0; i < frame.instances.size(); ++i) {
         using Flag = vk::GeometryInstanceFlagBitsKHR;
         const GpuInstance& source = frame.instances[i];
+        if (source.mask == 0) continue;
         const std::uint32_t index = structure_for(source, detail);
         const Structure& structure = structures_[index];
-        for (const GpuGeometry& g : scene_.structures()[index].geometries)
-            triangle_count_ += g.triangle_count;
+        triangle_count_ += triangles_of(scene_.structures()[index]);
         gpu::TopLevelInstance instance;
         instance.world_from_object = glm::mat4x3(source.world_from_object);
         instance.custom_index = static_cast<std::uint32_t>(i);
@@ -150,7 +175,7 @@ void AccelScene::record(const gpu::Commands& cmd, std::uint32_t slot, const GpuS
         // changes.
         if (source.mirrored_vertices) instance.flags |= Flag::eTriangleFlipFacing;
         if (structure.any_double_sided) instance.flags |= Flag::eTriangleFacingCullDisable;
-        instance.bottom_level = structure.level.address();
+        instance.bottom_level = structure.level->address();
         instances_.push_back(instance);
     }
     top_level_.build(cmd, slot, instances_);
@@ -166,18 +191,23 @@ std::uint32_t AccelScene::structure_for(const GpuInstance& instance, const MeshD
 
 void AccelScene::update_structures(const gpu::Commands& cmd, const GpuSceneFrame& frame,
                                    RayPipeline& pipeline) {
+    std::vector<std::uint8_t> seen(structures_.size()), changed(structures_.size());
+    for (const GpuInstance& instance : frame.instances) seen[instance.structure] |= instance.mask != 0;
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+        stale_[i] |= frame.structure_changed[i];
+        if (!seen[i]) continue;
+        changed[i] = std::exchange(stale_[i], std::uint8_t{0});
+    }
+    const std::vector<bool> rebuild = plan_->choose(changed);
     std::vector<gpu::BottomLevelUpdate> updates;
     bool records_changed = false;
     for (std::size_t i = 0; i < structures_.size(); ++i) {
-        if (frame.structure_changed[i]) {
-            // The first time too: what was built at the start were the undeformed vertices.
-            const bool refit = structures_[i].updates++ % rebuild_period != 0;
-            updates.push_back({&structures_[i].level, structures_[i].geometries, refit});
-        }
+        if (changed[i])
+            updates.push_back({structures_[i].level.get(), structures_[i].geometries, !rebuild[i]});
         const GpuStructure& source = scene_.structures()[i];
         if (source.kind != GpuStructure::Kind::Shape) continue;
         const scene::Shape& shape = scene_.scene().shapes[source.source];
-        if (!frame.structure_changed[i] && !pipeline.shapes().uses_time(shape)) continue;
+        if (!changed[i] && !(seen[i] && pipeline.shapes().uses_time(shape))) continue;
         table_[i] = {
             shape_record(scene_, source.source, frame.shapes[source.source].values, frame.seconds, pipeline)};
         records_changed = true;

@@ -21,6 +21,7 @@ shared::Light packed(const scene::PlacedAreaLight& light) {
     packed.intensity = light.radiance;
     packed.half_u = light.half_u;
     packed.half_v = light.half_v;
+    packed.number = light.number;
     switch (light.shape) {
         case scene::AreaLightShape::Rectangle:
             packed.type = shared::LIGHT_RECTANGLE;
@@ -53,6 +54,7 @@ std::vector<shared::Light> pack_lights(const scene::SceneChanges& changes) {
         packed.intensity = light.intensity;
         packed.cos_inner = light.cos_inner_cone;
         packed.cos_outer = light.cos_outer_cone;
+        packed.number = light.number;
         result.push_back(packed);
     }
     return result;

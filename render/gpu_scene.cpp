@@ -39,13 +39,15 @@ void hide_if_singular(GpuInstance& instance) {
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const scene::Scene& scene,
-                   std::uint32_t slots)
+                   std::uint32_t slots, vk::DeviceSize portion, MeshStore* store)
     : scene_(scene),
-      uploader_(device),
+      uploader_(device, portion),
       textures_(device, textures, uploader_, scene),
       environment_(device, textures, scene.environment) {
-    materials_ = uploader_.buffer("materials", gpu::range_bytes(textures_.materials()));
-    upload_structures(device, textures, uploader_, slots);
+    packed_materials_ = textures_.materials();
+    materials_ = FrameBuffer(device, "materials", packed_materials_.size() * sizeof(shared::Material), slots);
+    MeshStore own;
+    upload_structures(device, textures, uploader_, slots, store ? *store : own);
     uploader_.flush();
     instances_.resize(structure_of_instance_.size());
     previous_.resize(structure_of_instance_.size());
@@ -54,47 +56,55 @@ GpuScene::GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const
     scene_data_ = FrameBuffer(device, "scene data", sizeof(shared::SceneData), slots);
 }
 
+std::vector<GpuGeometry> GpuScene::geometries_of(scene::MeshId id, std::uint32_t level) const {
+    const GpuMesh& mesh = meshes_[id]->mesh();
+    std::vector<GpuGeometry> geometries = level == 0 ? mesh.geometries() : mesh.level(level - 1);
+    for (std::size_t i = 0; i < geometries.size(); ++i)
+        geometries[i].material = scene_.meshes[id].primitives[i].material;
+    return geometries;
+}
+
 void GpuScene::upload_structures(const gpu::Device& device, gpu::TextureTable& textures,
-                                 gpu::Uploader& uploader, std::uint32_t slots) {
+                                 gpu::Uploader& uploader, std::uint32_t slots, MeshStore& store) {
     const std::vector<bool> used = used_meshes(scene_), rigid = rigid_meshes(scene_);
-    std::vector<std::vector<scene::MeshLevel>> levels(scene_.meshes.size());
     meshes_.resize(scene_.meshes.size());
     for (scene::MeshId id = 0; id < meshes_.size(); ++id) {
         if (!used[id]) continue;
         const scene::Mesh& mesh = scene_.meshes[id];
-        if (rigid[id]) levels[id] = scene::make_mesh_levels(mesh);
-        meshes_[id] = std::make_unique<GpuMesh>(uploader, "mesh " + std::to_string(id) + " " + mesh.name,
-                                                mesh, levels[id]);
+        meshes_[id] = store.get(uploader, "mesh " + std::to_string(id) + " " + mesh.name, mesh, rigid[id]);
     }
     const auto add_structure = [&](std::string name, GpuStructure::Kind kind, std::uint32_t source,
-                                   const std::vector<GpuGeometry>& geometries) {
-        structures_.push_back({std::move(name), kind, source, geometries, {}});
-        return static_cast<std::uint32_t>(structures_.size() - 1);
+                                   std::vector<GpuGeometry> geometries) -> GpuStructure& {
+        return structures_.emplace_back(
+            GpuStructure{std::move(name), kind, source, std::move(geometries), {}, nullptr, 0});
     };
+    const auto last = [&] { return static_cast<std::uint32_t>(structures_.size() - 1); };
 
-    const auto add_levels = [&](const std::vector<scene::MeshLevel>& coarser, std::uint32_t mesh) {
-        if (coarser.empty()) return;
-        structures_[mesh].level_errors = {0.0f};
-        for (std::size_t i = 0; i < coarser.size(); ++i) {
-            const scene::MeshId id = structures_[mesh].source;
-            structures_[mesh].level_errors.push_back(coarser[i].error);
-            add_structure("mesh " + std::to_string(id) + " level " + std::to_string(i + 1),
-                          GpuStructure::Kind::Mesh, id, meshes_[id]->level(i));
+    const auto add_mesh = [&](scene::MeshId id) {
+        const std::vector<float>& errors = meshes_[id]->level_errors();
+        const std::string name = "mesh " + std::to_string(id);
+        GpuStructure& finest = add_structure(name, GpuStructure::Kind::Mesh, id, geometries_of(id, 0));
+        finest.level_errors = errors;
+        finest.shared = meshes_[id];
+        const std::uint32_t structure = last();
+        for (std::uint32_t level = 1; level < errors.size(); ++level) {
+            GpuStructure& coarser = add_structure(name + " level " + std::to_string(level),
+                                                  GpuStructure::Kind::Mesh, id, geometries_of(id, level));
+            coarser.shared = meshes_[id];
+            coarser.level = level;
         }
+        return structure;
     };
     constexpr std::uint32_t none = ~0u;
     std::vector<std::uint32_t> structure_of_mesh(meshes_.size(), none);
     for (const scene::Instance& instance : scene_.instances) {
-        std::uint32_t& shape = structure_of_mesh[instance.mesh];
-        if (instance.deformation || shape != none) continue;
-        shape = add_structure("mesh " + std::to_string(instance.mesh), GpuStructure::Kind::Mesh,
-                              instance.mesh, meshes_[instance.mesh]->geometries());
-        add_levels(levels[instance.mesh], shape);
+        std::uint32_t& structure = structure_of_mesh[instance.mesh];
+        if (!instance.deformation && structure == none) structure = add_mesh(instance.mesh);
     }
     first_deformed_ = static_cast<std::uint32_t>(structures_.size());
     std::vector<const GpuMesh*> rest;
     for (const scene::Deformation& deformation : scene_.deformations)
-        rest.push_back(meshes_[deformation.mesh].get());
+        rest.push_back(&meshes_[deformation.mesh]->mesh());
     deform_ = std::make_unique<DeformStage>(device, textures, uploader, scene_, rest, slots);
     for (scene::DeformationId id = 0; id < scene_.deformations.size(); ++id) {
         add_structure("deformation " + std::to_string(id), GpuStructure::Kind::DeformedMesh, id,
@@ -115,9 +125,10 @@ void GpuScene::upload_structures(const gpu::Device& device, gpu::TextureTable& t
     }
     for (std::uint32_t id = 0; id < scene_.real_surfaces.size(); ++id) {
         const scene::RealSurface& surface = scene_.real_surfaces[id];
-        structure_of_instance_.push_back(
-            add_structure("real surface " + std::to_string(id) + " " + surface.name,
-                          GpuStructure::Kind::RealSurface, id, meshes_[surface.mesh]->geometries()));
+        add_structure("real surface " + std::to_string(id) + " " + surface.name,
+                      GpuStructure::Kind::RealSurface, id, geometries_of(surface.mesh, 0))
+            .shared = meshes_[surface.mesh];
+        structure_of_instance_.push_back(last());
     }
     structure_changed_.resize(structures_.size());
 }
@@ -132,6 +143,7 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
         instance.world_from_object = state.world_from_object;
         const bool moves = state.moved || structure_changed_[instance.structure];
         instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
+        if (!state.present) instance.mask = 0;
         if (source.deformation) {
             const auto& joints = changes.deformations[*source.deformation].joints;
             instance.mirrored_vertices = !joints.empty() && glm::determinant(mat3(joints.front())) < 0.0f;
@@ -147,6 +159,7 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
         instance.world_from_object = state.world_from_object;
         const bool moves = state.moved || structure_changed_[instance.structure];
         instance.mask = shared::MASK_VIRTUAL | (moves && started_ ? shared::MASK_MOVING : 0u);
+        if (!state.present) instance.mask = 0;
         hide_if_singular(instance);
         previous_[first_shape + i] = {glm::mat4x3(state.previous_world_from_object),
                                       scene_.shape_instances[i].node};
@@ -164,6 +177,17 @@ void GpuScene::update_instances(const scene::SceneChanges& changes, const Pose& 
     }
 }
 
+void GpuScene::record_materials(const gpu::Commands& cmd, std::uint32_t slot,
+                                const scene::SceneChanges& changes) {
+    bool changed = !started_;
+    for (const scene::MaterialState& state : changes.materials) {
+        if (!state.changed && started_) continue;
+        pack_values(state.values, packed_materials_[state.material]);
+        changed = true;
+    }
+    if (changed) materials_.record(cmd, slot, gpu::range_bytes(packed_materials_));
+}
+
 GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
                                const scene::SceneChanges& changes, const Pose& world_from_stage) {
     using gpu::Access;
@@ -177,7 +201,6 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
         structure_changed_[first_shape_ + id] = changes.shapes[id].changed;
     }
     update_instances(changes, world_from_stage);
-    started_ = true;
 
     const std::vector<shared::Light> lights = pack_lights(changes);
     shared::SceneData data{};
@@ -189,11 +212,13 @@ GpuSceneFrame GpuScene::record(const gpu::Commands& cmd, std::uint32_t slot,
 
     cmd.barrier(Access::RayTracingRead, Access::TransferWrite);
     cmd.barrier(Access::ComputeRead, Access::TransferWrite);
+    record_materials(cmd, slot, changes);
     instance_data_.record(cmd, slot, gpu::range_bytes(previous_));
     lights_.record(cmd, slot, gpu::range_bytes(lights));
     scene_data_.record(cmd, slot, gpu::bytes_of(data));
     cmd.barrier(Access::TransferWrite, Access::RayTracingRead);
     cmd.barrier(Access::TransferWrite, Access::ComputeRead);
+    started_ = true;
     return {scene_data_.address(), data.light_count, instances_,
             structure_changed_,    changes.shapes,   static_cast<float>(to_seconds(changes.time))};
 }

@@ -11,6 +11,7 @@
 #include "render/frame_buffer.h"
 #include "render/gpu_mesh.h"
 #include "render/gpu_shapes.h"
+#include "render/mesh_store.h"
 #include "render/scene/animator.h"
 #include "render/scene_textures.h"
 
@@ -27,13 +28,15 @@ struct GpuStructure {
     /// Errors of a mesh and of its levels of detail, which are the structures after it: object space, metres,
     /// the first 0. Empty: it has none, or is one.
     std::vector<float> level_errors;
+    std::shared_ptr<SharedMesh> shared;  // of which this is a level; null for others
+    std::uint32_t level = 0;
 };
 
 /// A structure in the world in one frame.
 struct GpuInstance {
     std::uint32_t structure = 0;
     mat4 world_from_object{1.0f};
-    std::uint32_t mask = 0;  // shared::MASK_…
+    std::uint32_t mask = 0;  // shared::MASK_…; 0: not there
     bool mirrored_vertices =
         false;  // the vertices were mirrored before world_from_object: triangles face the other way
 };
@@ -53,9 +56,11 @@ struct GpuSceneFrame {
 /// Everything is reached by device address; textures are in the texture table.
 class GpuScene {
   public:
-    /// `slots`: frames in flight. The scene and the table must outlive this. Uploads and waits.
+    /// `slots`: frames in flight. The scene and the table must outlive this. Uploads and waits, on any
+    /// thread; `portion`: bytes that may occupy the GPU at once. `store`: has the meshes of other scenes;
+    /// null: none are shared.
     GpuScene(const gpu::Device& device, gpu::TextureTable& textures, const scene::Scene& scene,
-             std::uint32_t slots);
+             std::uint32_t slots, vk::DeviceSize portion = gpu::whole_portion, MeshStore* store = nullptr);
 
     const scene::Scene& scene() const { return scene_; }
     /// Meshes that are in use, their levels of detail after each, then deformed meshes, shapes, real
@@ -72,18 +77,22 @@ class GpuScene {
 
   private:
     void upload_structures(const gpu::Device& device, gpu::TextureTable& textures, gpu::Uploader& uploader,
-                           std::uint32_t slots);
+                           std::uint32_t slots, MeshStore& store);
+    /// The mesh's geometries of a level with this scene's materials.
+    std::vector<GpuGeometry> geometries_of(scene::MeshId id, std::uint32_t level) const;
     void update_instances(const scene::SceneChanges& changes, const Pose& world_from_stage);
+    /// The scene's materials, those of them that change as they are now.
+    void record_materials(const gpu::Commands& cmd, std::uint32_t slot, const scene::SceneChanges& changes);
 
     const scene::Scene& scene_;
     gpu::Uploader uploader_;
     SceneTextures textures_;
     EnvironmentLight environment_;
-    std::vector<std::unique_ptr<GpuMesh>> meshes_;  // by mesh id; null: not in use
+    std::vector<std::shared_ptr<SharedMesh>> meshes_;  // by mesh id; null: not in use
     std::unique_ptr<DeformStage> deform_;
     std::unique_ptr<GpuShapes> shapes_;
-    gpu::Buffer materials_;
-    FrameBuffer instance_data_, lights_, scene_data_;
+    FrameBuffer materials_, instance_data_, lights_, scene_data_;
+    std::vector<shared::Material> packed_materials_;
     std::vector<GpuStructure> structures_;
     std::vector<std::uint32_t> structure_of_instance_;  // parallel to instances_
     std::vector<GpuInstance> instances_;

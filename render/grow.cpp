@@ -1,11 +1,13 @@
 #include "render/grow.h"
 
+#include <utility>
+
 namespace foveray::render {
 
-void grow(const gpu::Device& device, gpu::Buffer& buffer, const char* name, vk::DeviceSize bytes) {
+void grow(const gpu::Commands& cmd, gpu::Buffer& buffer, const char* name, vk::DeviceSize bytes) {
     if (buffer.size() >= bytes) return;
-    device.vk().waitIdle();
-    buffer = gpu::Buffer(device, name, bytes, gpu::Residence::Device);
+    if (buffer) cmd.release(std::move(buffer));
+    buffer = gpu::Buffer(cmd.device(), name, bytes, gpu::Residence::Device);
 }
 
 }  // namespace foveray::render

@@ -21,8 +21,7 @@ float blend_after(Nanoseconds dt) {
 }  // namespace
 
 HistoryStage::HistoryStage(const gpu::Device& device, const gpu::TextureTable& textures)
-    : device_(device),
-      guide_(device, "render/history_guide.comp", textures, sizeof(shared::HistoryPush)),
+    : guide_(device, "render/history_guide.comp", textures, sizeof(shared::HistoryPush)),
       spatial_(device, "render/history_spatial.comp", textures, sizeof(shared::HistoryPush)),
       temporal_(device, "render/history_temporal.comp", textures, sizeof(shared::HistoryPush)) {
     for (std::size_t i = 0; i < kept_.size(); ++i) {
@@ -44,7 +43,7 @@ LightLayers HistoryStage::record(const gpu::Commands& cmd, const HistoryInput& i
     current_ = 1 - current_;
     Kept& kept = kept_[current_];
     const auto reserve = [&](gpu::Buffer& buffer, const char* name, vk::DeviceSize sample_bytes) {
-        grow(device_, buffer, name, grid.sample_count * sample_bytes);
+        grow(cmd, buffer, name, grid.sample_count * sample_bytes);
     };
     const vk::DeviceSize light_bytes = layers * sizeof(uvec2);
     const bool temporal = input.settings.history_temporal && started_ && layers == layers_;

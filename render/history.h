@@ -41,7 +41,6 @@ class HistoryStage {
         gpu::Buffer guides, result, frame;
     };
 
-    const gpu::Device& device_;
     gpu::ComputePipeline guide_, spatial_, temporal_;
     std::array<Kept, 2> kept_;
     gpu::Buffer places_, smoothed_;

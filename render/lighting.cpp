@@ -21,9 +21,8 @@ std::uint32_t debug_view(const Settings& settings) {
 
 }  // namespace
 
-LightingStage::LightingStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
-                             engine::RayGeneration lighting)
-    : device_(device), tracer_(tracer), lighting_(lighting) {}
+LightingStage::LightingStage(const engine::SceneRayTracer& tracer, engine::RayGeneration lighting)
+    : tracer_(tracer), lighting_(lighting) {}
 
 LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingInput& input,
                                       std::uint32_t sub_sample) {
@@ -31,11 +30,11 @@ LightLayers LightingStage::accumulate(const gpu::Commands& cmd, const LightingIn
     const auto stage = cmd.stage("lighting");
     const Settings& settings = input.settings;
     const vk::DeviceSize bytes = vk::DeviceSize{input.grid.sample_count} * sizeof(shared::LightSample);
-    grow(device_, samples_, "light samples", bytes);
+    grow(cmd, samples_, "light samples", bytes);
     const bool polar = input.grid.kind == shared::GRID_POLAR;
     const vk::DeviceSize shadowed_bytes =
         vk::DeviceSize{input.grid.sample_count} * sizeof(shared::ShadowedLight);
-    if (polar) grow(device_, shadowed_, "shadowed light", shadowed_bytes);
+    if (polar) grow(cmd, shadowed_, "shadowed light", shadowed_bytes);
 
     shared::LightingPush push{};
     push.grid = input.grid.at(sub_sample);

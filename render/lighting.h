@@ -39,7 +39,7 @@ struct LightingInput {
 class LightingStage {
   public:
     /// `lighting` is the tracer's entry for "render/lighting.rgen".
-    LightingStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
+    LightingStage(const engine::SceneRayTracer& tracer,
                   engine::RayGeneration lighting);
 
     /// Sub-sample 0 starts a frame's light, the following ones, in order, are averaged into it. Compute and
@@ -47,7 +47,6 @@ class LightingStage {
     LightLayers accumulate(const gpu::Commands& cmd, const LightingInput& input, std::uint32_t sub_sample);
 
   private:
-    const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     engine::RayGeneration lighting_;
     gpu::Buffer samples_, shadowed_;

@@ -6,16 +6,15 @@
 
 namespace foveray::render {
 
-PrimaryStage::PrimaryStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
-                           engine::RayGeneration primary)
-    : device_(device), tracer_(tracer), primary_(primary) {}
+PrimaryStage::PrimaryStage(const engine::SceneRayTracer& tracer, engine::RayGeneration primary)
+    : tracer_(tracer), primary_(primary) {}
 
 Surfaces PrimaryStage::record(const gpu::Commands& cmd, const SampleGrid& grid, std::uint32_t sub_sample,
                               vk::DeviceAddress counters) {
     using gpu::Access;
     const auto stage = cmd.stage("primary");
     const vk::DeviceSize size = vk::DeviceSize{grid.sample_count} * sizeof(shared::Surface);
-    grow(device_, surfaces_, "surfaces", size);
+    grow(cmd, surfaces_, "surfaces", size);
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead}) {
         cmd.barrier(read, Access::RayTracingWrite);
     }

@@ -18,7 +18,7 @@ struct Surfaces {
 class PrimaryStage {
   public:
     /// `primary` is the tracer's entry for "render/primary.rgen". The tracer must outlive the stage.
-    PrimaryStage(const gpu::Device& device, const engine::SceneRayTracer& tracer,
+    PrimaryStage(const engine::SceneRayTracer& tracer,
                  engine::RayGeneration primary);
 
     /// Stage "primary". The tracer must be prepared for the frame. `counters`: uint[RAY_COUNTER_KINDS *
@@ -29,7 +29,6 @@ class PrimaryStage {
                     vk::DeviceAddress counters);
 
   private:
-    const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     engine::RayGeneration primary_;
     gpu::Buffer surfaces_;

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "render/gpu_lights.h"
+#include "render/grow.h"
 #include "render/scene/scene.h"
+#include "render/scene_textures.h"
 
 namespace foveray::render {
 namespace {
@@ -43,9 +45,24 @@ std::vector<std::byte> lighting_of(const ProbeInput& input) {
     };
     const std::vector<shared::Light> lights = pack_lights(input.changes);
     add(gpu::range_bytes(lights));
+    for (const scene::MaterialState& material : input.changes.materials) {
+        shared::Material packed{};
+        pack_values(material.values, packed);
+        add(gpu::bytes_of(packed));
+    }
     add(gpu::bytes_of(input.settings.environment_intensity));
     add(gpu::bytes_of(input.settings.shadows));
     return bytes;
+}
+
+/// Another buffer with other contents, while earlier frames go on with the one before.
+void replace(const gpu::Commands& cmd, gpu::Buffer& buffer, const char* name,
+             std::span<const std::byte> data) {
+    gpu::Buffer other(cmd.device(), name, data.size(), gpu::Residence::Device);
+    cmd->updateBuffer<std::byte>(
+        other.vk(), 0, vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(data.size()), data.data()));
+    if (buffer) cmd.release(std::move(buffer));
+    buffer = std::move(other);
 }
 
 }  // namespace
@@ -76,16 +93,26 @@ quat probe_rotation(std::uint32_t frame) {
 ProbeStage::ProbeStage(const gpu::Device& device, const gpu::TextureTable& textures,
                        const scene::Scene& scene, const engine::SceneRayTracer& tracer,
                        engine::RayGeneration probes)
-    : device_(device), tracer_(tracer), probes_(probes) {
-    if (!scene.probes) return;
-    update_.emplace(device, "render/probe_update.comp", textures, sizeof(shared::ProbePush));
-    make_buffers(device, *scene.probes);
-}
+    : tracer_(tracer),
+      probes_(probes),
+      update_(device, "render/probe_update.comp", textures, sizeof(shared::ProbePush)),
+      wanted_grid_(scene.probes) {}
 
-void ProbeStage::make_buffers(const gpu::Device& device, const scene::ProbeGrid& grid) {
+void ProbeStage::place(const gpu::Commands& cmd) {
+    for (gpu::Buffer* old :
+         {&field_buffer_, &states_, &light_, &depth_, &light_sums_, &depth_sums_, &rays_, &directions_}) {
+        if (*old) cmd.release(std::move(*old));
+    }
+    grid_ = wanted_grid_;
+    field_ = {};
+    ray_count_ = 0;
+    frame_ = 0;
+    last_time_.reset();
+    if (!grid_) return;
+    const scene::ProbeGrid& grid = *grid_;
     probe_count_ = grid.counts.x * grid.counts.y * grid.counts.z;
     const auto buffer = [&](const char* name, std::size_t bytes_a_probe) {
-        return gpu::Buffer(device, name, vk::DeviceSize{probe_count_} * bytes_a_probe,
+        return gpu::Buffer(cmd.device(), name, vk::DeviceSize{probe_count_} * bytes_a_probe,
                            gpu::Residence::Device);
     };
     states_ = buffer("probe states", sizeof(shared::ProbeState));
@@ -104,26 +131,21 @@ void ProbeStage::make_buffers(const gpu::Device& device, const scene::ProbeGrid&
     field_.depth = depth_.address();
     field_.light_sums = light_sums_.address();
     field_.depth_sums = depth_sums_.address();
-    gpu::submit_and_wait(device, [&](const gpu::Commands& cmd) {
-        cmd->fillBuffer(states_.vk(), 0, states_.size(), 0);
-        cmd.barrier(gpu::Access::TransferWrite, gpu::Access::RayTracingRead);
-        cmd.barrier(gpu::Access::TransferWrite, gpu::Access::ComputeWrite);
-    });
+    cmd->fillBuffer(states_.vk(), 0, states_.size(), 0);
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::RayTracingRead);
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::ComputeWrite);
 }
 
-void ProbeStage::set_directions(std::uint32_t ray_count) {
+void ProbeStage::set_directions(const gpu::Commands& cmd, std::uint32_t ray_count) {
     if (ray_count == ray_count_) return;
-    device_.vk().waitIdle();  // earlier frames still read what is replaced
     ray_count_ = ray_count;
-    rays_ = gpu::Buffer(device_, "probe rays",
-                        vk::DeviceSize{probe_count_} * ray_count * 2 * sizeof(std::uint32_t),
-                        gpu::Residence::Device);
-    gpu::Uploader uploader(device_);
-    directions_ = uploader.buffer("probe directions", gpu::range_bytes(probe_directions(ray_count)));
+    grow(cmd, rays_, "probe rays", vk::DeviceSize{probe_count_} * ray_count * 2 * sizeof(std::uint32_t));
+    replace(cmd, directions_, "probe directions", gpu::range_bytes(probe_directions(ray_count)));
     field_.rays = rays_.address();
     field_.directions = directions_.address();
-    field_buffer_ = uploader.buffer("probe field", gpu::bytes_of(field_));
-    uploader.flush();
+    replace(cmd, field_buffer_, "probe field", gpu::bytes_of(field_));
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::RayTracingRead);
+    cmd.barrier(gpu::Access::TransferWrite, gpu::Access::ComputeRead);
 }
 
 float ProbeStage::advance(const ProbeInput& input) {
@@ -166,9 +188,11 @@ shared::ProbePush ProbeStage::push_of(const ProbeInput& input, float seconds) co
 
 ProbeField ProbeStage::record(const gpu::Commands& cmd, const ProbeInput& input) {
     using gpu::Access;
-    if (!update_ || !input.settings.probes) return {};
+    const bool wanted = wanted_grid_ && input.settings.probes;
+    if (wanted_grid_ != grid_ && (wanted || grid_)) place(cmd);
+    if (!wanted) return {};
     const auto stage = cmd.stage("probes");
-    set_directions(static_cast<std::uint32_t>(input.settings.probe_rays));
+    set_directions(cmd, static_cast<std::uint32_t>(input.settings.probe_rays));
     const shared::ProbePush push = push_of(input, advance(input));
     ++frame_;
 
@@ -177,7 +201,7 @@ ProbeField ProbeStage::record(const gpu::Commands& cmd, const ProbeInput& input)
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     // Earlier frames' light and this trace have read the maps.
     cmd.barrier(Access::RayTracingRead, Access::ComputeWrite);
-    update_->dispatch(cmd, push, {256 * probe_count_, 1, 1}, {256, 1, 1});
+    update_.dispatch(cmd, push, {256 * probe_count_, 1, 1}, {256, 1, 1});
     cmd.barrier(Access::ComputeWrite, Access::RayTracingRead);
     cmd.barrier(Access::ComputeWrite, Access::ComputeRead);
     cmd.barrier(Access::ComputeWrite, Access::ComputeWrite);  // of the next update

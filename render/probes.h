@@ -9,6 +9,7 @@
 #include "render/engine/scene_types.h"
 #include "render/gpu/compute_pipeline.h"
 #include "render/scene/animator.h"
+#include "render/scene/probe_grid.h"
 #include "shaders/shared/probes.h"
 
 namespace foveray::render {
@@ -35,9 +36,12 @@ class ProbeStage {
     static constexpr float usual = 0.4f;  // while the scene changes
     static constexpr float fastest = 0.04f;
 
-    /// `probes` is the tracer's entry for "render/probe_trace.rgen". Scene and tracer must outlive the stage.
+    /// `probes` is the tracer's entry for "render/probe_trace.rgen". The tracer must outlive the stage.
     ProbeStage(const gpu::Device& device, const gpu::TextureTable& textures, const scene::Scene& scene,
                const engine::SceneRayTracer& tracer, engine::RayGeneration probes);
+
+    /// From the next record() on. Where probes stay where they were, they keep what they know.
+    void set_grid(const std::optional<scene::ProbeGrid>& grid) { wanted_grid_ = grid; }
 
     /// Stage "probes". The tracer must be prepared for the frame. Orders itself after earlier frames' use of
     /// the field; ray tracing and compute shaders recorded afterwards see this frame's.
@@ -51,16 +55,17 @@ class ProbeStage {
     const shared::ProbeField& field() const { return field_; }
 
   private:
-    void make_buffers(const gpu::Device& device, const scene::ProbeGrid& grid);
-    void set_directions(std::uint32_t ray_count);
+    /// New probes, where the wanted grid has them.
+    void place(const gpu::Commands& cmd);
+    void set_directions(const gpu::Commands& cmd, std::uint32_t ray_count);
     /// Brings the clocks below to this frame. Returns the seconds that it takes.
     float advance(const ProbeInput& input);
     shared::ProbePush push_of(const ProbeInput& input, float seconds) const;
 
-    const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     engine::RayGeneration probes_;
-    std::optional<gpu::ComputePipeline> update_;
+    gpu::ComputePipeline update_;
+    std::optional<scene::ProbeGrid> wanted_grid_, grid_;
     std::uint32_t probe_count_ = 0;
     shared::ProbeField field_{};
     gpu::Buffer field_buffer_, states_, light_, depth_, light_sums_, depth_sums_, rays_, directions_;

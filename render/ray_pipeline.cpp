@@ -4,13 +4,23 @@
 
 namespace foveray::render {
 
+namespace {
+
+std::set<scene::ShapeKind> kinds_of(const scene::Scene& scene) {
+    std::set<scene::ShapeKind> kinds;
+    for (const scene::Shape& shape : scene.shapes) kinds.insert(shape.kind);
+    return kinds;
+}
+
+}  // namespace
+
 RayPipeline::Declared RayPipeline::declare(const scene::Scene& scene, const UserShaders& users) {
     using engine::HitGroup;
     using engine::RayType;
     engine::SceneProgram program("scene", RayType{"surface", "render/surface.rmiss"},
                                  RayType{"shadow", "render/shadow.rmiss"});
     const ShapeTypes shapes(program, scene, users);
-    Declared d{std::move(program), shapes, {}, {}, {}, {}, {}, {}, {}, {}};
+    Declared d{std::move(program), shapes, kinds_of(scene), users, {}, {}, {}, {}, {}, {}, {}, {}};
     d.triangles = d.program.add_geometry_type<shared::TriangleRecord>(
         "triangles", HitGroup{"render/surface.rchit", "render/surface.rahit", ""},
         HitGroup{"", "render/shadow.rahit", ""});
@@ -34,6 +44,10 @@ RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& tex
 RayPipeline::RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                          Declared declared)
     : declared_(std::move(declared)), tracer_(device, textures, slots, declared_.program) {}
+
+bool RayPipeline::suits(const scene::Scene& scene, const UserShaders& users) const {
+    return declared_.kinds == kinds_of(scene) && declared_.users == users;
+}
 
 RayPipeline::Geometry RayPipeline::triangles(const shared::TriangleRecord& record) const {
     return engine::SceneProgram::geometry(declared_.triangles, record);

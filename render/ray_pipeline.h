@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "render/engine/scene_types.h"
@@ -20,6 +21,9 @@ class RayPipeline {
     /// shaders for is what is in it. `users`: of its user shapes.
     RayPipeline(const gpu::Device& device, const gpu::TextureTable& textures, std::uint32_t slots,
                 const scene::Scene& scene, const UserShaders& users = {});
+
+    /// A pipeline for this scene would be the same.
+    bool suits(const scene::Scene& scene, const UserShaders& users) const;
 
     Geometry triangles(const shared::TriangleRecord& record) const;
     /// A real surface: found by surface rays, invisible itself.
@@ -41,6 +45,8 @@ class RayPipeline {
     struct Declared {
         engine::SceneProgram program;
         ShapeTypes shapes;
+        std::set<scene::ShapeKind> kinds;
+        UserShaders users;
         engine::GeometryType<shared::TriangleRecord> triangles;
         engine::GeometryType<shared::CatcherRecord> catchers;
         engine::RayGeneration fixation, probes, primary;

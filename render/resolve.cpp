@@ -15,7 +15,7 @@ std::uint32_t debug_view(const Settings& settings) {
 }  // namespace
 
 ResolveStage::ResolveStage(const gpu::Device& device, const gpu::TextureTable& textures)
-    : device_(device), pipeline_(device, "render/resolve.comp", textures, sizeof(shared::ResolvePush)) {}
+    : pipeline_(device, "render/resolve.comp", textures, sizeof(shared::ResolvePush)) {}
 
 ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
                                 std::span<const View> views, bool real_surfaces, const Settings& settings) {
@@ -29,11 +29,11 @@ ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& lig
         const uvec2 size = views[i].size;
         const vk::DeviceSize pixels = vk::DeviceSize{size.x} * size.y;
         Buffers& buffers = buffers_[i];
-        grow(device_, buffers.resolved, "resolved pixels", pixels * sizeof(shared::ResolvedPixel));
-        grow(device_, buffers.color, "colour", pixels * sizeof(std::uint32_t));
-        grow(device_, buffers.depth, "depth", pixels * sizeof(float));
+        grow(cmd, buffers.resolved, "resolved pixels", pixels * sizeof(shared::ResolvedPixel));
+        grow(cmd, buffers.color, "colour", pixels * sizeof(std::uint32_t));
+        grow(cmd, buffers.depth, "depth", pixels * sizeof(float));
         if (real_surfaces)
-            grow(device_, buffers.real, "resolved real pixels", pixels * sizeof(shared::ResolvedRealPixel));
+            grow(cmd, buffers.real, "resolved real pixels", pixels * sizeof(shared::ResolvedRealPixel));
         result.images.push_back({buffers.resolved.address(), real_surfaces ? buffers.real.address() : 0,
                                  buffers.color.address(), buffers.depth.address(), size});
         result.buffers.push_back(

@@ -27,7 +27,6 @@ class ResolveStage {
     struct Buffers {
         gpu::Buffer resolved, real, color, depth;
     };
-    const gpu::Device& device_;
     gpu::ComputePipeline pipeline_;
     std::array<Buffers, shared::MAX_VIEWS> buffers_;
 };

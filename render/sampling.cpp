@@ -167,7 +167,7 @@ vk::DeviceAddress SamplingStage::upload_grids(const gpu::Commands& cmd, Slot& sl
     if (slot.grid_staging.size() < bytes) {
         slot.grid_staging = gpu::Buffer(device_, "staging for sample grids", bytes, gpu::Residence::Upload);
     }
-    grow(device_, grids_, "sample grids", bytes);
+    grow(cmd, grids_, "sample grids", bytes);
     slot.grid_staging.write(std::as_bytes(grids));
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead})
         cmd.barrier(read, Access::TransferWrite);

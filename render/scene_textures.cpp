@@ -54,6 +54,20 @@ vec3 attenuation(const scene::Material& material) {
 
 }  // namespace
 
+void pack_values(const scene::Material& m, shared::Material& into) {
+    into.base_color = m.base_color;
+    into.emissive = m.emissive;
+    into.metallic = m.metallic;
+    into.roughness = m.roughness;
+    into.normal_scale = m.normal_scale;
+    into.occlusion_strength = m.occlusion_strength;
+    into.alpha_cutoff = m.alpha_cutoff;
+    into.flags = flags(m);
+    into.transmission = m.transmission;
+    into.ior = m.ior == 0.0f ? 1e6f : m.ior;  // the extension's 0 stands for infinity
+    into.attenuation = attenuation(m);
+}
+
 SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table, gpu::Uploader& uploader,
                              const scene::Scene& scene)
     : device_(device), table_(table) {
@@ -62,23 +76,13 @@ SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table
             return use(uploader, scene, u, content);
         };
         shared::Material material{};
-        material.base_color = m.base_color;
-        material.emissive = m.emissive;
-        material.metallic = m.metallic;
-        material.roughness = m.roughness;
-        material.normal_scale = m.normal_scale;
-        material.occlusion_strength = m.occlusion_strength;
-        material.alpha_cutoff = m.alpha_cutoff;
-        material.flags = flags(m);
+        pack_values(m, material);
         material.base_color_texture = place(m.base_color_texture, Content::Color);
         material.metallic_roughness_texture = place(m.metallic_roughness_texture, Content::Data);
         material.normal_texture = place(m.normal_texture, Content::Data);
         material.occlusion_texture = place(m.occlusion_texture, Content::Data);
         material.emissive_texture = place(m.emissive_texture, Content::Color);
         material.transmission_texture = place(m.transmission_texture, Content::Data);
-        material.transmission = m.transmission;
-        material.ior = m.ior == 0.0f ? 1e6f : m.ior;  // the extension's 0 stands for infinity
-        material.attenuation = attenuation(m);
         materials_.push_back(material);
     }
 }

@@ -12,6 +12,9 @@
 
 namespace foveray::render {
 
+/// A material as shaders read it, but for its textures, which stay as they are in `into`.
+void pack_values(const scene::Material& material, shared::Material& into);
+
 /// A scene's images on the GPU, with all their levels, and its textures in the texture table. Images that no
 /// material uses are left out; one that serves both as colour and as data exists in both formats.
 class SceneTextures {

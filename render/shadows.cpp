@@ -25,8 +25,7 @@ struct ShadowStage::Penumbras {
 
 ShadowStage::ShadowStage(const gpu::Device& device, const gpu::TextureTable& textures,
                          const engine::SceneRayTracer& tracer, Entries entries)
-    : device_(device),
-      tracer_(tracer),
+    : tracer_(tracer),
       entries_(entries),
       select_(device, "render/penumbras.comp", textures, sizeof(shared::ShadowPush)),
       cells_(device, "render/penumbra_cells.comp", textures, sizeof(shared::ShadowPush)),
@@ -45,16 +44,16 @@ Shadows ShadowStage::record(const gpu::Commands& cmd, const ShadowInput& input, 
     const std::uint32_t lights = std::min(input.light_count, shared::MOST_KNOWN_LIGHTS);
     const bool adaptive = lights > 0 && settings.shadows && settings.adaptive_shadows &&
                           settings.shadow_samples >= fewest_adaptive;
-    grow(device_, visibility_, "light visibility", 4 * std::max<vk::DeviceSize>(lights * samples, 1));
-    grow(device_, openness_, "openness", 4 * samples);
+    grow(cmd, visibility_, "light visibility", 4 * std::max<vk::DeviceSize>(lights * samples, 1));
+    grow(cmd, openness_, "openness", 4 * samples);
     std::uint32_t largest_block = 0;
     for (const SampleBlock& block : input.grid.blocks)
         largest_block = std::max(largest_block, block.width * block.height);
     const Penumbras penumbras{adaptive ? lights * largest_block : 0,
                               static_cast<std::uint32_t>(settings.shadow_samples)};
     if (adaptive) {
-        grow(device_, lists_, "penumbra lists", 3 * penumbras.list_bytes());
-        if (penumbras.in_cells()) grow(device_, words_, "penumbra cells", penumbras.word_bytes());
+        grow(cmd, lists_, "penumbra lists", 3 * penumbras.list_bytes());
+        if (penumbras.in_cells()) grow(cmd, words_, "penumbra cells", penumbras.word_bytes());
     }
 
     shared::ShadowPush push{};

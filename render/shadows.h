@@ -48,7 +48,6 @@ class ShadowStage {
     vk::DeviceAddress noise() const { return noise_.address(); }  // uint[BLUE_NOISE_SIZE²]
 
   private:
-    const gpu::Device& device_;
     const engine::SceneRayTracer& tracer_;
     Entries entries_;
     struct Penumbras;  // where their lists lie

@@ -7,5 +7,6 @@ namespace foveray::app {
 
 std::vector<BenchRow> herr_rows();
 std::vector<BenchRow> procedural_rows();
+std::vector<BenchRow> changes_rows();
 
 }  // namespace foveray::app

@@ -56,7 +56,10 @@ Mirror::Mirror(const gpu::Device& device, DesktopWindow& window)
 }
 
 Mirror::~Mirror() {
-    device_.vk().waitIdle();
+    {
+        const auto lock = device_.lock_queue();
+        device_.vk().waitIdle();
+    }
     ImGui_ImplVulkan_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
@@ -113,7 +116,9 @@ void Mirror::show(std::span<const Picture> pictures, const FrameMetrics& metrics
     cmd_.end();
     const vk::PipelineStageFlags wait = vk::PipelineStageFlagBits::eTransfer;
     const vk::CommandBuffer cmd = *cmd_;
+    auto lock = device_.lock_queue();
     device_.queue().submit(vk::SubmitInfo(target->acquired, wait, cmd, target->finished), *done_);
+    lock.unlock();
     swapchain_.present();
 }
 

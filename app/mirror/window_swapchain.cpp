@@ -51,7 +51,10 @@ void WindowSwapchain::make_render_pass() {
 }
 
 void WindowSwapchain::make_swapchain() {
-    device_.vk().waitIdle();
+    {
+        const auto lock = device_.lock_queue();
+        device_.vk().waitIdle();
+    }
     images_.clear();
     const auto capabilities = device_.physical().getSurfaceCapabilitiesKHR(*surface_);
     if (!(capabilities.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst)) {
@@ -118,6 +121,7 @@ void WindowSwapchain::present() {
     const vk::Semaphore finished = *images_[current_].finished;
     const vk::SwapchainKHR swapchain = *swapchain_;
     try {
+        const auto lock = device_.lock_queue();
         const vk::Result result =
             device_.queue().presentKHR(vk::PresentInfoKHR(finished, swapchain, current_));
         is_stale_ |= result == vk::Result::eSuboptimalKHR;

@@ -32,24 +32,31 @@ Frame frame_of(const Shot& shot, std::uint64_t index) {
 
 Offscreen::Offscreen(const gpu::Device& device, const scene::Scene& scene, std::uint32_t frames_in_flight,
                      const render::UserShaders& user_shaders)
+    : Offscreen(device, std::shared_ptr<const scene::Scene>(std::shared_ptr<void>(), &scene),
+                frames_in_flight, user_shaders) {}
+
+Offscreen::Offscreen(const gpu::Device& device, std::shared_ptr<const scene::Scene> scene,
+                     std::uint32_t frames_in_flight, const render::UserShaders& user_shaders)
     : device_(device),
       ring_(device, frames_in_flight),
       textures_(device),
       counters_(device, frames_in_flight),
-      pipeline_(device, textures_, frames_in_flight, scene, user_shaders),
-      animator_(scene),
-      gpu_scene_(device, textures_, scene, frames_in_flight),
-      accel_scene_(device, gpu_scene_, pipeline_, frames_in_flight),
+      live_(device, textures_, frames_in_flight, std::move(scene), user_shaders),
       room_(device, textures_, frames_in_flight, std::nullopt, {}, room_distance),
-      probes_(device, textures_, scene, pipeline_.tracer(), pipeline_.probes()),
-      sampling_(device, frames_in_flight, pipeline_.tracer(), pipeline_.fixation()),
-      primary_(device, pipeline_.tracer(), pipeline_.primary()),
-      shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
-      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      probes_(device, textures_, live_.scene(), live_.pipeline().tracer(), live_.pipeline().probes()),
+      sampling_(device, frames_in_flight, live_.pipeline().tracer(), live_.pipeline().fixation()),
+      primary_(live_.pipeline().tracer(), live_.pipeline().primary()),
+      shadows_(device, textures_, live_.pipeline().tracer(), live_.pipeline().shadows()),
+      lighting_(live_.pipeline().tracer(), live_.pipeline().lighting()),
       history_(device, textures_),
       resolve_(device, textures_),
       compositor_(device, textures_),
       pending_cpu_ms_(frames_in_flight) {}
+
+void Offscreen::show(render::LiveScene::Next next) {
+    live_.show(ring_, std::move(next));
+    probes_.set_grid(live_.scene().probes);
+}
 
 std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     const gpu::Commands cmd = ring_.begin();
@@ -62,10 +69,10 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
 
     if (shot.bare_rays > 0) empty_log(cmd, shot.bare_rays);
     counters_.clear(cmd, shot.bare_rays > 0 ? ray_log_.address() : 0);
-    const auto& changes = animator_.advance(shot.time);
-    const auto scene = gpu_scene_.record(cmd, slot, changes, {});
-    accel_scene_.record(cmd, slot, scene, pipeline_,
-                        {frame, {}, fovea, shot.acuity, settings, shot.every_pixel});
+    const auto& changes = live_.animator().advance(shot.time);
+    const auto scene = live_.gpu().record(cmd, slot, changes, {});
+    live_.accel().record(cmd, slot, scene, live_.pipeline(),
+                         {frame, {}, fovea, shot.acuity, settings, shot.every_pixel});
     const auto room = room_.record(cmd, slot, {}, settings);
     const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
     const auto grid =
@@ -82,7 +89,7 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
                                       shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    const bool real_surfaces = !gpu_scene_.scene().real_surfaces.empty();
+    const bool real_surfaces = !live_.scene().real_surfaces.empty();
     light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
     images_ = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
     compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
@@ -96,7 +103,7 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
 }
 
 void Offscreen::empty_log(const gpu::Commands& cmd, std::uint32_t most) {
-    render::grow(device_, ray_log_, "ray log",
+    render::grow(cmd, ray_log_, "ray log",
                  sizeof(shared::RayLog) + vk::DeviceSize{most} * sizeof(shared::LoggedRay));
     cmd.barrier(gpu::Access::RayTracingRead, gpu::Access::TransferWrite);
     cmd.barrier(gpu::Access::IndirectRead, gpu::Access::TransferWrite);
@@ -105,12 +112,13 @@ void Offscreen::empty_log(const gpu::Commands& cmd, std::uint32_t most) {
     cmd.barrier(gpu::Access::TransferWrite, gpu::Access::RayTracingWrite);
 }
 
-void Offscreen::trace_bare(const gpu::Commands& cmd) const {
+void Offscreen::trace_bare(const gpu::Commands& cmd) {
     cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::RayTracingRead);
     cmd.barrier(gpu::Access::RayTracingWrite, gpu::Access::IndirectRead);
     const auto stage = cmd.stage("bare");
-    pipeline_.tracer().trace_indirect(cmd, pipeline_.bare_rays(), shared::BareRaysPush{ray_log_.address()},
-                                      ray_log_.address());
+    const render::RayPipeline& pipeline = live_.pipeline();
+    pipeline.tracer().trace_indirect(cmd, pipeline.bare_rays(), shared::BareRaysPush{ray_log_.address()},
+                                     ray_log_.address());
 }
 
 std::optional<ShotCost> Offscreen::collect(std::uint32_t slot) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,13 +9,12 @@
 #include "base/image.h"
 #include "base/settings.h"
 #include "passthrough/compositor.h"
-#include "render/accel_scene.h"
 #include "render/history.h"
 #include "render/lighting.h"
+#include "render/live_scene.h"
 #include "render/primary.h"
 #include "render/probes.h"
 #include "render/ray_counters.h"
-#include "render/ray_pipeline.h"
 #include "render/resolve.h"
 #include "render/sampling.h"
 #include "render/shadows.h"
@@ -50,7 +50,16 @@ class Offscreen {
     /// The scene must outlive this. `user_shaders`: of the scene's user shapes.
     Offscreen(const gpu::Device& device, const scene::Scene& scene, std::uint32_t frames_in_flight = 2,
               const render::UserShaders& user_shaders = {});
+    Offscreen(const gpu::Device& device, std::shared_ptr<const scene::Scene> scene,
+              std::uint32_t frames_in_flight = 2, const render::UserShaders& user_shaders = {});
     ~Offscreen() { ring_.wait(); }
+
+    /// Another scene, in this one's place from the next draw() on: LiveScene says on which threads.
+    render::LiveScene::Next prepare(std::shared_ptr<const scene::Scene> scene,
+                                    const render::UserShaders& user_shaders = {}) const {
+        return live_.prepare(std::move(scene), user_shaders);
+    }
+    void show(render::LiveScene::Next next);
 
     /// Records and submits a frame. Empty until a frame in the same slot has finished, then that frame's
     /// cost.
@@ -63,16 +72,13 @@ class Offscreen {
   private:
     std::optional<ShotCost> collect(std::uint32_t slot);
     void empty_log(const gpu::Commands& cmd, std::uint32_t most);
-    void trace_bare(const gpu::Commands& cmd) const;
+    void trace_bare(const gpu::Commands& cmd);
 
     const gpu::Device& device_;
     gpu::FrameRing ring_;
     gpu::TextureTable textures_;
     render::RayCounters counters_;
-    render::RayPipeline pipeline_;
-    scene::SceneAnimator animator_;
-    render::GpuScene gpu_scene_;
-    render::AccelScene accel_scene_;
+    render::LiveScene live_;
     passthrough::RoomStage room_;
     render::ProbeStage probes_;
     render::SamplingStage sampling_;

@@ -7,8 +7,6 @@
 namespace foveray::gpu {
 namespace {
 
-constexpr vk::DeviceSize staging_limit = 256ull << 20;
-
 vk::raii::CommandPool make_pool(const Device& device, const std::string& name) {
     vk::raii::CommandPool pool(device.vk(),
                                {vk::CommandPoolCreateFlagBits::eTransient, device.queue_family()});
@@ -64,6 +62,7 @@ void FrameRing::retire(Slot& slot) {
     wait_for(device_, slot.fence);
     device_.vk().resetFences(*slot.fence);
     slot.in_flight = false;
+    slot.released.free();
     stage_times_ = slot.timers.read();
 }
 
@@ -74,30 +73,35 @@ Commands FrameRing::begin() {
     slot.pool.reset();
     slot.timers.reset();
     slot.cmd.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    return Commands(device_, slot.cmd, &slot.timers);
+    recording_ = true;
+    return Commands(device_, slot.cmd, &slot.timers, &released_);
 }
 
 void FrameRing::submit() {
     Slot& slot = slots_[current_];
     slot.cmd.end();
     const vk::CommandBufferSubmitInfo command(*slot.cmd);
-    device_.queue().submit2(vk::SubmitInfo2({}, {}, command), *slot.fence);
+    device_.submit(vk::SubmitInfo2({}, {}, command), *slot.fence);
     slot.in_flight = true;
+    slot.released = std::exchange(released_, {});
+    recording_ = false;
 }
 
 void FrameRing::wait() {
     for (std::size_t i = 0; i < slots_.size(); ++i) retire(slots_[(frame_ + i) % slots_.size()]);
+    if (!recording_) released_.free();
 }
 
 void submit_and_wait(const Device& device, const std::function<void(const Commands&)>& record) {
     const vk::raii::CommandPool pool = make_pool(device, "set-up pool");
     const vk::raii::CommandBuffer cmd = make_command_buffer(device, pool, "set-up");
     cmd.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    record(Commands(device, cmd, nullptr));
+    Released released;
+    record(Commands(device, cmd, nullptr, &released));
     cmd.end();
     const vk::raii::Fence fence(device.vk(), vk::FenceCreateInfo{});
     const vk::CommandBufferSubmitInfo command(*cmd);
-    device.queue().submit2(vk::SubmitInfo2({}, {}, command), *fence);
+    device.submit(vk::SubmitInfo2({}, {}, command), *fence);
     wait_for(device, fence);
 }
 
@@ -169,7 +173,7 @@ Image Uploader::image(const std::string& name, const ImageInfo& info, std::span<
 }
 
 void Uploader::flush_if_large() {
-    if (staged_ > staging_limit) flush();
+    if (staged_ > portion_) flush();
 }
 
 void Uploader::flush() {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cassert>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/gpu/barriers.h"
@@ -12,16 +15,38 @@
 
 namespace foveray::gpu {
 
+/// What is no longer wanted, but may still be in use on the GPU.
+class Released {
+  public:
+    template <typename T>
+    void add(T object) {
+        objects_.push_back(std::make_shared<T>(std::move(object)));
+    }
+    /// The GPU is done with all of it.
+    void free() { objects_.clear(); }
+
+  private:
+    std::vector<std::shared_ptr<void>> objects_;
+};
+
 /// One frame's command buffer in recording, with what a stage needs to record itself.
 class Commands {
   public:
-    Commands(const Device& device, const vk::raii::CommandBuffer& cmd, GpuTimers* timers)
-        : device_(device), cmd_(cmd), timers_(timers) {}
+    Commands(const Device& device, const vk::raii::CommandBuffer& cmd, GpuTimers* timers,
+             Released* released = nullptr)
+        : device_(device), cmd_(cmd), timers_(timers), released_(released) {}
 
     const Device& device() const { return device_; }
     const vk::raii::CommandBuffer& vk() const { return cmd_; }
     const vk::raii::CommandBuffer* operator->() const { return &cmd_; }
     void barrier(Access from, Access to) const { gpu::barrier(cmd_, from, to); }
+
+    /// Frees something (a buffer, say) once the GPU has finished these commands and those submitted before.
+    template <typename T>
+    void release(T object) const {
+        assert(released_);
+        released_->add(std::move(object));
+    }
 
     /// A stage from here to the end of the returned scope: one name for its debug label, its timer and its
     /// column in the metrics.
@@ -41,7 +66,8 @@ class Commands {
   private:
     const Device& device_;
     const vk::raii::CommandBuffer& cmd_;
-    GpuTimers* timers_;  // may be null
+    GpuTimers* timers_;   // may be null
+    Released* released_;  // may be null
 };
 
 /// Command buffers of the frames in flight. Resources that a frame writes from the CPU exist once a slot.
@@ -56,7 +82,12 @@ class FrameRing {
     Commands begin();
     std::uint32_t slot() const { return current_; }
     void submit();
-    /// Waits for everything submitted.
+    /// Between frames: frees something once the GPU has finished the next frame.
+    template <typename T>
+    void release(T object) {
+        released_.add(std::move(object));
+    }
+    /// Waits for everything submitted, and frees what was released.
     void wait();
     /// Stage times of the newest frame that the GPU has finished in this slot.
     const std::vector<StageTime>& stage_times() const { return stage_times_; }
@@ -67,6 +98,7 @@ class FrameRing {
         vk::raii::CommandBuffer cmd = nullptr;
         vk::raii::Fence fence = nullptr;
         GpuTimers timers;
+        Released released;  // in its frame or before it
         bool in_flight = false;
     };
     void retire(Slot& slot);
@@ -75,16 +107,24 @@ class FrameRing {
     std::vector<Slot> slots_;
     std::uint32_t current_ = 0;
     std::uint64_t frame_ = 0;
+    Released released_;  // since the last submit()
+    bool recording_ = false;
     std::vector<StageTime> stage_times_;
 };
 
-/// Records, submits and waits: for set-up work outside the frame loop.
+/// Records, submits and waits: for set-up work outside the frame loop, on any thread.
 void submit_and_wait(const Device& device, const std::function<void(const Commands&)>& record);
+
+/// Bytes that set-up work may handle in one submission. What goes on beside frames takes small portions, so
+/// that a frame never waits long for its turn on the GPU.
+constexpr vk::DeviceSize whole_portion = 256ull << 20, small_portion = 8ull << 20;
 
 /// Copies CPU data into device-local buffers and images through staging memory, in few submissions.
 class Uploader {
   public:
-    explicit Uploader(const Device& device) : device_(device) {}
+    /// `portion`: bytes a submission, but for what is larger itself.
+    explicit Uploader(const Device& device, vk::DeviceSize portion = whole_portion)
+        : device_(device), portion_(portion) {}
     ~Uploader() { flush(); }
 
     Buffer buffer(const std::string& name, std::span<const std::byte> data, vk::BufferUsageFlags extra = {});
@@ -99,6 +139,7 @@ class Uploader {
     void flush_if_large();
 
     const Device& device_;
+    vk::DeviceSize portion_;
     std::vector<Buffer> staging_;
     vk::DeviceSize staged_ = 0;
     std::vector<std::function<void(const Commands&)>> work_;

@@ -275,6 +275,11 @@ Device::Device(const DeviceOptions& options, const DeviceSource& source)
     driver_ = std::string(driver.driverName) + " " + std::string(driver.driverInfo);
 }
 
+void Device::submit(const vk::SubmitInfo2& info, vk::Fence fence) const {
+    const auto lock = lock_queue();
+    queue_.submit2(info, fence);
+}
+
 void Device::Messages::add(const char* message) {
     const std::lock_guard lock(mutex_);
     messages_.emplace_back(message);

@@ -56,6 +56,10 @@ class Device {
     const vk::raii::PhysicalDevice& physical() const { return physical_; }
     const vk::raii::Device& vk() const { return device_; }
     const vk::raii::Queue& queue() const { return queue_; }
+    /// The queue takes one thread at a time: whoever uses it, an OpenXR runtime included, holds this.
+    [[nodiscard]] std::unique_lock<std::mutex> lock_queue() const { return std::unique_lock(queue_mutex_); }
+    /// On any thread.
+    void submit(const vk::SubmitInfo2& info, vk::Fence fence) const;
     std::uint32_t queue_family() const { return queue_family_; }
     VmaAllocator_T* allocator() const { return allocator_; }
     const RayTracingLimits& limits() const { return limits_; }
@@ -98,6 +102,7 @@ class Device {
     vk::raii::PhysicalDevice physical_ = nullptr;
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
+    mutable std::mutex queue_mutex_;
     std::uint32_t queue_family_ = 0;
     VmaAllocator_T* allocator_ = nullptr;
     RayTracingLimits limits_;

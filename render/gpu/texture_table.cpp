@@ -28,6 +28,7 @@ TextureTable::TextureTable(const Device& device) : device_(device) {
 }
 
 std::uint32_t TextureTable::add(vk::ImageView view, const SamplerInfo& info) {
+    const std::lock_guard lock(mutex_);
     std::uint32_t index = used_;
     if (!free_.empty()) {
         index = free_.back();
@@ -38,11 +39,21 @@ std::uint32_t TextureTable::add(vk::ImageView view, const SamplerInfo& info) {
     } else {
         ++used_;
     }
-    replace(index, view, info);
+    point(index, view, info);
     return index;
 }
 
 void TextureTable::replace(std::uint32_t index, vk::ImageView view, const SamplerInfo& info) {
+    const std::lock_guard lock(mutex_);
+    point(index, view, info);
+}
+
+void TextureTable::remove(std::uint32_t index) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(index);
+}
+
+void TextureTable::point(std::uint32_t index, vk::ImageView view, const SamplerInfo& info) {
     const vk::DescriptorImageInfo image(sampler(info), view, vk::ImageLayout::eShaderReadOnlyOptimal);
     device_.vk().updateDescriptorSets(
         vk::WriteDescriptorSet(*set_, 0, index, vk::DescriptorType::eCombinedImageSampler, image), {});

@@ -11,11 +11,13 @@ Tracer::Tracer(const scene::Scene& scene, const scene::SceneChanges& now, What w
     if (what == What::Instances) {
         for (std::size_t id = 0; id < scene.instances.size(); ++id) {
             const scene::Instance& instance = scene.instances[id];
+            if (!now.instances[id].present) continue;
             add(scene.meshes[instance.mesh], now.instances[id].world_from_object,
                 instance.deformation ? &now.deformations[*instance.deformation] : nullptr, triangles_);
         }
         for (std::size_t id = 0; id < scene.shape_instances.size(); ++id) {
             const scene::ShapeId shape = scene.shape_instances[id].shape;
+            if (!now.shape_instances[id].present) continue;
             const glm::dmat4 world(now.shape_instances[id].world_from_object);
             shapes_.push_back({&scene.shapes[shape], now.shapes[shape].values, glm::inverse(world)});
         }

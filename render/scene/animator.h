@@ -15,7 +15,8 @@ std::vector<float> sample(const AnimationChannel& channel, float seconds);
 struct InstanceState {
     mat4 world_from_object{1.0f};  // skinned meshes: the identity, their joints place them in the world
     mat4 previous_world_from_object{1.0f};
-    bool moved = false;  // the two differ
+    bool moved = false;   // the two differ
+    bool present = true;  // else no ray meets it. What has just come has not moved
 };
 
 struct DeformationState {
@@ -33,7 +34,15 @@ struct ShapeState {
         false;  // the values are not the last frame's: of animated shapes always in the first frame
 };
 
-/// One frame's state. Vectors are parallel to those of Scene; lights stand in the order of their nodes.
+/// A material that is not as Scene has it.
+struct MaterialState {
+    MaterialId material = 0;
+    Material values;       // its textures are the scene's
+    bool changed = false;  // not the last frame's; in the first frame always
+};
+
+/// One frame's state. Vectors are parallel to those of Scene. Lights are those that are present, in the order
+/// of their nodes.
 struct SceneChanges {
     Nanoseconds time = 0;
     std::vector<mat4> world_from_node, previous_world_from_node;
@@ -43,7 +52,9 @@ struct SceneChanges {
     std::vector<ShapeState> shapes;
     std::vector<PlacedLight> lights;
     std::vector<PlacedAreaLight> area_lights;
-    bool transforms_changed = false;  // some instance moved since the last frame; always in the first frame
+    std::vector<MaterialState> materials;  // those that are animated
+    bool transforms_changed =
+        false;  // some instance moved, came or went since the last frame; always in the first frame
 };
 
 /// Plays all animations of a scene in a loop by session time. Depends on nothing but the times given.
@@ -59,6 +70,7 @@ class SceneAnimator {
   private:
     const Scene* scene_;
     SceneChanges state_;
+    std::vector<std::uint8_t> present_;  // by node
     bool started_ = false;
 };
 

@@ -30,7 +30,7 @@ std::uint32_t width_of(const SceneBuilder& builder, NodeId node, AnimatedPropert
         case AnimatedProperty::Rotation:
             return 4;
         case AnimatedProperty::Weights:
-        case AnimatedProperty::ShapeValues:
+        default:
             break;
     }
     const Scene& scene = builder.so_far();

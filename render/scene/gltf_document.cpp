@@ -287,6 +287,10 @@ std::span<const std::uint8_t> view_bytes(const GltfDocument& document, std::size
         .subspan(view.byteOffset, view.byteLength);
 }
 
+std::filesystem::path path_of(const GltfDocument& document, const std::string& uri) {
+    return document.file.parent_path() / decode_percent(uri);
+}
+
 std::vector<std::uint8_t> read_uri(const GltfDocument& document, const std::string& uri,
                                    const std::string& place) {
     if (uri.starts_with("data:")) {
@@ -296,7 +300,7 @@ std::vector<std::uint8_t> read_uri(const GltfDocument& document, const std::stri
         if (!data) document.fault(place, "is not a base64 data URI");
         return *data;
     }
-    const std::filesystem::path file = document.file.parent_path() / decode_percent(uri);
+    const std::filesystem::path file = path_of(document, uri);
     std::optional<Bytes> data = read_bytes(file);
     if (!data)
         document.fault(place, file.string() + " cannot be opened", "put the file there or correct the uri");

@@ -32,6 +32,9 @@ GltfDocument read_gltf(const std::filesystem::path& file);
 /// The bytes of a buffer view.
 std::span<const std::uint8_t> view_bytes(const GltfDocument& document, std::size_t buffer_view);
 
+/// The file that a "uri" names, relative to the document.
+std::filesystem::path path_of(const GltfDocument& document, const std::string& uri);
+
 /// The bytes behind a "uri": a base64 data URI or a file next to the document.
 std::vector<std::uint8_t> read_uri(const GltfDocument& document, const std::string& uri,
                                    const std::string& place);

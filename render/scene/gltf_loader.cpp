@@ -142,8 +142,25 @@ struct GltfModel::Impl {
     Skin read_skin(std::size_t index, const std::map<int, NodeId>& nodes) const;
 };
 
+namespace {
+
+GltfDocument read_noted(SceneBuilder& builder, const std::filesystem::path& file) {
+    builder.note_file(file);
+    GltfDocument document = read_gltf(file);
+    for (const char* kind : {"buffers", "images"}) {
+        if (!document.json.contains(kind)) continue;
+        for (const Json& part : document.json[kind]) {
+            const std::string uri = part.value("uri", "");
+            if (!uri.empty() && !uri.starts_with("data:")) builder.note_file(path_of(document, uri));
+        }
+    }
+    return document;
+}
+
+}  // namespace
+
 GltfModel::GltfModel(SceneBuilder& builder, const std::filesystem::path& file)
-    : impl_(std::make_unique<Impl>(builder, read_gltf(file))) {
+    : impl_(std::make_unique<Impl>(builder, read_noted(builder, file))) {
     const GltfDocument& document = impl_->document;
     std::string ignored;
     for (const std::string& name : document.ignored_extensions)

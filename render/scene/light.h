@@ -45,6 +45,7 @@ struct PlacedLight {
     float range = 0.0f;
     float cos_inner_cone = 1.0f;
     float cos_outer_cone = 0.0f;
+    std::uint32_t number = 0;  // its own for good, whatever other lights come and go
 };
 
 /// A rectangle is center + a * half_u + b * half_v, a and b in [-1, 1], and shines to the side that
@@ -56,6 +57,7 @@ struct PlacedAreaLight {
     vec3 half_v{0.0f, -0.5f, 0.0f};
     vec3 half_w{0.0f, 0.0f, -0.5f};
     vec3 radiance{1.0f};
+    std::uint32_t number = 0;  // as of PlacedLight; these come first
 };
 
 /// What rays see that leave the scene: a latitude-longitude picture in world space; see environment_uv.

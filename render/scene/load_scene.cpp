@@ -37,8 +37,8 @@ void add_sun(SceneBuilder& builder) {
     builder.add(std::move(node));
 }
 
-Scene load_bare_gltf(const std::filesystem::path& file) {
-    SceneBuilder builder;
+Scene load_bare_gltf(const std::filesystem::path& file, std::vector<std::filesystem::path>* files) {
+    SceneBuilder builder(files);
     Node root;
     root.name = file.stem().string();
     GltfModel::Use use;
@@ -57,10 +57,11 @@ Scene load_bare_gltf(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file) {
+Scene load_scene(const std::filesystem::path& file, std::vector<std::filesystem::path>* files) {
     std::string extension = file.extension().string();
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension == ".gltf" || extension == ".glb" ? load_bare_gltf(file) : load_scene_file(file);
+    return extension == ".gltf" || extension == ".glb" ? load_bare_gltf(file, files)
+                                                       : load_scene_file(file, files);
 }
 
 }  // namespace foveray::scene

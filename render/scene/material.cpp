@@ -11,4 +11,9 @@ mat3 uv_matrix(const TextureUse& use) {
             vec3(use.offset, 1.0f)};
 }
 
+bool is_opaque(const Material& material) {
+    return material.alpha_mode == AlphaMode::Opaque && material.transmission == 0.0f &&
+           !material.becomes_transmissive;
+}
+
 }  // namespace foveray::scene

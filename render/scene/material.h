@@ -71,6 +71,7 @@ struct Material {
     bool solid = false;            // KHR_materials_volume with a thickness: the mesh encloses the material
     vec3 attenuation_color{1.0f};  // of white light after attenuation_distance in it
     float attenuation_distance = 0.0f;  // metres; 0: it takes nothing away
+    bool becomes_transmissive = false;  // an animation takes `transmission` above 0; filled by SceneBuilder
 
     TextureUse base_color_texture;          // sRGB + alpha
     TextureUse metallic_roughness_texture;  // G roughness, B metallic
@@ -79,5 +80,8 @@ struct Material {
     TextureUse emissive_texture;            // sRGB
     TextureUse transmission_texture;        // R
 };
+
+/// All light ends at it, at any time.
+bool is_opaque(const Material& material);
 
 }  // namespace foveray::scene

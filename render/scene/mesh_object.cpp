@@ -134,7 +134,8 @@ Mesh read_mesh_parts(SceneBuilder& builder, const SceneValues& values, const Jso
             Material read = read_material(values, material, name + "/" + parts[i]["kind"].get<std::string>(),
                                           at + "/material");
             if (grating) read.base_color_texture.texture = add_grating(builder);
-            mesh.primitives.emplace_back().material = builder.add(std::move(read));
+            mesh.primitives.emplace_back().material =
+                add_material(builder, values, material, std::move(read), at + "/material");
             material_of_last = material, grating_in_last = grating;
         }
         const Json places = parts[i].value("instances", Json::array({Json::object()}));

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/math.h"
+#include "base/time.h"
 #include "render/scene/ids.h"
 
 namespace foveray::scene {
@@ -16,6 +18,11 @@ struct Transform {
 };
 
 mat4 to_matrix(const Transform& transform);
+
+/// A while in session time: from `from` until just before `until`.
+struct Presence {
+    Nanoseconds from = 0, until = std::numeric_limits<Nanoseconds>::max();
+};
 
 /// A place in the tree. A node's parent always has a smaller id, so one pass in id order makes world
 /// transforms.
@@ -33,6 +40,7 @@ struct Node {
     std::vector<float> morph_weights;       // empty: the mesh's
     std::vector<Transform> mesh_instances;  // of the mesh or shape (EXT_mesh_gpu_instancing):
                                             // node_from_instance; empty: once, as is
+    std::vector<Presence> present;  // when it and all below it are there; empty: always
 };
 
 struct Skin {
@@ -48,13 +56,30 @@ struct Camera {
 };
 
 enum class Interpolation : std::uint8_t { Step, Linear, CubicSpline };
-enum class AnimatedProperty : std::uint8_t { Translation, Rotation, Scale, Weights, ShapeValues };
+enum class AnimatedProperty : std::uint8_t {
+    // Of a node.
+    Translation,
+    Rotation,
+    Scale,
+    Weights,
+    ShapeValues,
+    // Of a material.
+    BaseColor,
+    Alpha,
+    Metallic,
+    Roughness,
+    Emissive,
+    Transmission,
+};
 
-/// Keys of one property of one node (glTF 2.0 section 3.11), or of a parameter of its shape. `values` holds,
-/// for each time, `width` floats (3, 4 as xyzw, 3, the number of morph targets, or the parameter's width), or
-/// 3 * width for CubicSpline: in-tangent, value, out-tangent.
+constexpr bool is_of_material(AnimatedProperty property) { return property >= AnimatedProperty::BaseColor; }
+
+/// Keys of one property of one node (glTF 2.0 section 3.11), of a parameter of its shape, or of a material.
+/// `values` holds, for each time, `width` floats (3, 4 as xyzw, 3, the number of morph targets, or as many as
+/// the parameter or the material's value has), or 3 * width for CubicSpline: in-tangent, value, out-tangent.
 struct AnimationChannel {
     NodeId node = 0;
+    MaterialId material = 0;  // of a material's property, which no node has
     AnimatedProperty property = AnimatedProperty::Translation;
     Interpolation interpolation = Interpolation::Linear;
     std::uint32_t width = 3;

@@ -11,6 +11,8 @@ struct ProbeGrid {
 
     uvec3 counts{16, 8, 16};  // along x, y and z
     vec3 min{0.0f}, max{0.0f};
+
+    bool operator==(const ProbeGrid&) const = default;
 };
 
 }  // namespace foveray::scene

@@ -44,6 +44,7 @@ bool is_animated(const Scene& scene, const Deformation& deformation) {
     bool own_weights = false;
     for (const Animation& animation : scene.animations) {
         for (const AnimationChannel& channel : animation.channels) {
+            if (is_of_material(channel.property)) continue;
             if (channel.property == AnimatedProperty::Weights) {
                 own_weights |= channel.node == deformation.node;
             } else {
@@ -59,11 +60,23 @@ bool is_animated(const Scene& scene, const Deformation& deformation) {
            (deformation.skin && std::ranges::any_of(scene.skins[*deformation.skin].joints, joint_moves));
 }
 
+/// Makes the material fit for all values that it will have: structures are built for see-through ones or not.
+void prepare_for(const AnimationChannel& channel, Material& material) {
+    if (channel.property == AnimatedProperty::Alpha && material.alpha_mode == AlphaMode::Opaque) {
+        material.alpha_mode = AlphaMode::Blend;
+    }
+    material.becomes_transmissive |= channel.property == AnimatedProperty::Transmission;
+}
+
 }  // namespace
 
-SceneBuilder::SceneBuilder() {
+SceneBuilder::SceneBuilder(std::vector<std::filesystem::path>* files) : files_(files) {
     scene_.materials.emplace_back().name = "default";
     scene_.environment = default_sky();
+}
+
+void SceneBuilder::note_file(const std::filesystem::path& file) {
+    if (files_ && std::ranges::find(*files_, file) == files_->end()) files_->push_back(file);
 }
 
 ImageId SceneBuilder::add(TextureImage image) {
@@ -116,8 +129,13 @@ SkinId SceneBuilder::add(Skin skin) {
 void SceneBuilder::add(Animation animation) {
     animation.duration = 0.0f;
     for (const AnimationChannel& channel : animation.channels) {
-        assert(channel.node < scene_.nodes.size() && !channel.times.empty());
+        assert(!channel.times.empty());
         animation.duration = std::max(animation.duration, channel.times.back());
+        if (is_of_material(channel.property)) {
+            prepare_for(channel, scene_.materials[channel.material]);
+            continue;
+        }
+        assert(channel.node < scene_.nodes.size());
         if (channel.property == AnimatedProperty::ShapeValues) {
             scene_.shapes[*scene_.nodes[channel.node].shape].animated = true;
         }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "render/scene/scene.h"
 
 namespace foveray::scene {
@@ -10,7 +13,12 @@ namespace foveray::scene {
 /// instances and deformations.
 class SceneBuilder {
   public:
-    SceneBuilder();
+    /// `files`: takes the name of every file that is read into the scene, before it is; may be null.
+    explicit SceneBuilder(std::vector<std::filesystem::path>* files = nullptr);
+
+    /// Loaders tell the files that they read.
+    void note_file(const std::filesystem::path& file);
+    std::vector<std::filesystem::path>* files() const { return files_; }
 
     ImageId add(TextureImage image);
     TextureId add(Texture texture);
@@ -44,6 +52,7 @@ class SceneBuilder {
     void derive_shape_instances(NodeId node);
 
     Scene scene_;
+    std::vector<std::filesystem::path>* files_;
 };
 
 /// All instances of a scene at time 0, baked into one mesh in world space with material 0.

@@ -20,8 +20,8 @@ namespace {
 /// Reads one scene file whose JSON the schema has accepted, so shapes and required keys are certain.
 class SceneFileReader {
   public:
-    SceneFileReader(std::filesystem::path file, Json json)
-        : values_(std::move(file)), json_(std::move(json)) {}
+    SceneFileReader(std::filesystem::path file, Json json, std::vector<std::filesystem::path>* files)
+        : values_(std::move(file)), json_(std::move(json)), builder_(files) {}
 
     Scene read();
 
@@ -81,6 +81,7 @@ void SceneFileReader::add_model(const Json& model, const std::string& place) {
     Node root;
     root.name = model.value("name", file.stem().string());
     root.local = transform_of(model, place);
+    root.present = read_presence(values_, model, place);
     GltfModel::Use use;
     use.parent = builder_.add(std::move(root));
     if (model.contains("scene")) use.scene = model["scene"].get<std::uint32_t>();
@@ -110,6 +111,7 @@ void SceneFileReader::add_light(const Json& json, const std::string& place) {
     Node node;
     node.name = light.name;
     node.parent = mover(json, place);
+    node.present = read_presence(values_, json, place);
     node.local.translation = values_.triple(json, "position", place, vec3(0.0f));
     if (json.contains("direction"))
         node.local.rotation = looking_along(values_.unit(json, "direction", place));
@@ -132,6 +134,7 @@ void SceneFileReader::add_area_light(const Json& json, vec3 radiance, const std:
     Node node;
     node.name = json.value("name", "area");
     node.parent = mover(json, place);
+    node.present = read_presence(values_, json, place);
     AreaLight light{node.name, AreaLightShape::Rectangle, vec3(1.0f), radiance};
     if (shape == "rectangle") {
         const vec3 u = values_.triple(json, "half_u", place, vec3(0.0f)),
@@ -191,7 +194,7 @@ void SceneFileReader::add_real_surface(const Json& json, const std::string& plac
         surface.stage_from_object = foveray::to_matrix(values_.pose(json["pose"], place + "/pose"));
         surface.mesh = builder_.add(make_box(values_.triple(json, "half_size", place, vec3(1.0f))));
     } else {
-        SceneBuilder only_this;
+        SceneBuilder only_this(builder_.files());
         GltfModel(only_this, values_.path(json["file"])).instantiate({});
         Mesh mesh = flatten(std::move(only_this).build());
         if (mesh.primitives.empty())
@@ -208,6 +211,7 @@ void SceneFileReader::set_environment(const Json& json) {
     Environment environment = default_sky();
     if (json.contains("file")) {
         if (json.contains("color")) values_.fault(place, "has a file and a color", "keep one of them");
+        builder_.note_file(values_.path(json["file"]));
         environment.radiance = read_hdr(values_.path(json["file"]));
     } else if (json.contains("color")) {
         environment = constant_environment(values_.triple(json, "color", place, vec3(0.0f)));
@@ -227,13 +231,14 @@ bool is_deeper(const Json& json, int levels) {
 
 }  // namespace
 
-Scene load_scene_file(const std::filesystem::path& file) {
+Scene load_scene_file(const std::filesystem::path& file, std::vector<std::filesystem::path>* files) {
+    if (files) files->push_back(file);
     Json json = read_json(file);
     if (is_deeper(json, deepest_json)) {
         throw_bad_input(file.string(), "it is nested too deeply", "flatten its solids");
     }
     check_json(json, scene_schema(), file);
-    return SceneFileReader(file, std::move(json)).read();
+    return SceneFileReader(file, std::move(json), files).read();
 }
 
 }  // namespace foveray::scene

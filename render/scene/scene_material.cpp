@@ -1,5 +1,7 @@
 #include "render/scene/scene_material.h"
 
+#include "render/scene/scene_animation.h"
+
 namespace foveray::scene {
 
 Material read_material(const SceneValues& values, const Json& json, const std::string& name,
@@ -22,6 +24,13 @@ Material read_material(const SceneValues& values, const Json& json, const std::s
     m.attenuation_color = values.triple(json, "attenuation_color", place, m.attenuation_color);
     m.attenuation_distance = values.number(json, "attenuation_distance", place, m.attenuation_distance);
     return m;
+}
+
+MaterialId add_material(SceneBuilder& builder, const SceneValues& values, const Json& json, Material material,
+                        const std::string& place) {
+    const MaterialId id = builder.add(std::move(material));
+    add_material_animation(builder, values, json, place, id);
+    return id;
 }
 
 }  // namespace foveray::scene

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/scene/material.h"
+#include "render/scene/scene_builder.h"
 #include "render/scene/scene_values.h"
 
 namespace foveray::scene {
@@ -9,5 +9,8 @@ namespace foveray::scene {
 /// dielectric where nothing is said.
 Material read_material(const SceneValues& values, const Json& json, const std::string& name,
                        const std::string& place);
+/// Adds what read_material() gave, with its animation.
+MaterialId add_material(SceneBuilder& builder, const SceneValues& values, const Json& json, Material material,
+                        const std::string& place);
 
 }  // namespace foveray::scene

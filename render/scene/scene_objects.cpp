@@ -68,7 +68,7 @@ class ObjectReader {
         read_parameters(values_, json_, place_, parameters, shape.values);
         Node node = read_node(kind.name);
         shape.name = node.name;
-        shape.material = builder_.add(material());
+        shape.material = add_material();
         node.shape = builder_.add(std::move(shape));
         add_node(std::move(node), parameters);
     }
@@ -93,6 +93,7 @@ class ObjectReader {
         Node node;
         node.name = json_.value("name", std::string(kind));
         node.parent = parent();
+        node.present = read_presence(values_, json_, place_);
         if (json_.contains("transform")) {
             node.local = values_.transform(json_["transform"], place_ + "/transform");
         }
@@ -148,9 +149,12 @@ class ObjectReader {
         return json_[key];
     }
 
-    Material material() const {
-        return read_material(values_, json_.value("material", Json::object()),
-                             json_.value("name", json_["shape"].get<std::string>()), place_ + "/material");
+    MaterialId add_material() {
+        const Json material = json_.value("material", Json::object());
+        const std::string at = place_ + "/material";
+        return scene::add_material(
+            builder_, values_, material,
+            read_material(values_, material, json_.value("name", json_["shape"].get<std::string>()), at), at);
     }
 
     std::optional<NodeId> parent() const {

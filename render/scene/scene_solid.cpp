@@ -26,8 +26,9 @@ class SolidReader {
                 object_from_node * to_matrix(values_.transform(json["transform"], place + "/transform"));
         }
         if (json.contains("material")) {
-            material = builder_.add(
-                read_material(values_, json["material"], "part of a solid", place + "/material"));
+            const std::string at = place + "/material";
+            material = add_material(builder_, values_, json["material"],
+                                    read_material(values_, json["material"], "part of a solid", at), at);
         }
         const Json& inner = json[key];
         for (std::size_t i = 0; i < operations.size(); ++i) {

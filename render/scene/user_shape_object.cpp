@@ -44,6 +44,7 @@ Shape read_user_object(SceneBuilder& builder, const SceneValues& values, const J
     if (!object.contains("file"))
         values.fault(place, "has no \"file\"", "name the GLSL file that defines it");
     const std::filesystem::path file = values.path(object["file"]).lexically_normal();
+    builder.note_file(file);
     Shape shape;
     shape.kind = ShapeKind::User;
     shape.user_bounds = bounds_of_object(values, object, place);

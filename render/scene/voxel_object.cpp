@@ -14,8 +14,9 @@ namespace {
 
 constexpr float default_voxel_size = 0.01f;  // metres
 
-Voxels voxels_of_model(const std::filesystem::path& file, std::uint32_t resolution) {
-    SceneBuilder model;
+Voxels voxels_of_model(const SceneBuilder& builder, const std::filesystem::path& file,
+                       std::uint32_t resolution) {
+    SceneBuilder model(builder.files());
     GltfModel(model, file).instantiate({});
     std::optional<Voxels> voxels = voxelize(std::move(model).build(), resolution);
     if (!voxels) {
@@ -27,7 +28,7 @@ Voxels voxels_of_model(const std::filesystem::path& file, std::uint32_t resoluti
 
 }  // namespace
 
-Shape read_voxel_object(const SceneBuilder& builder, const SceneValues& values, const Json& object,
+Shape read_voxel_object(SceneBuilder& builder, const SceneValues& values, const Json& object,
                         const std::string& place) {
     if (!object.contains("file")) {
         values.fault(place, "has no \"file\"", "name a .vox, .glb or .gltf file");
@@ -63,8 +64,9 @@ Shape read_voxel_object(const SceneBuilder& builder, const SceneValues& values, 
         if (other.voxels_source == shape.voxels_source) shape.voxels = other.voxels;
     }
     if (shape.voxels) return shape;
-    shape.voxels =
-        std::make_shared<Voxels>(from_model ? voxels_of_model(file, resolution) : read_vox(file, size));
+    builder.note_file(file);
+    shape.voxels = std::make_shared<Voxels>(from_model ? voxels_of_model(builder, file, resolution)
+                                                       : read_vox(file, size));
     const Voxels& v = *shape.voxels;
     log::info("{}: {} voxels, {:.1f} MiB", file.filename().string(), v.voxel_count(),
               static_cast<double>(v.bytes()) / (1 << 20));

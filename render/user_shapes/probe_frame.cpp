@@ -48,10 +48,12 @@ ProbeFrame::ProbeFrame(const gpu::Device& device, gpu::TextureTable& textures, c
       pipeline_(device, textures, 1, scene_, {compile(user)}),
       gpu_scene_(device, textures, scene_, 1),
       accel_(device, gpu_scene_, pipeline_, 1),
-      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      primary_(pipeline_.tracer(), pipeline_.primary()),
       counters_(device, 1),
       grid_(device, "probe grid", sizeof(shared::SampleGrid), gpu::Residence::Upload),
-      readback_(device, "probe surfaces", pixels * sizeof(shared::Surface), gpu::Residence::Readback) {}
+      readback_(device, "probe surfaces", pixels * sizeof(shared::Surface), gpu::Residence::Readback) {
+    accel_.fill_table(pipeline_);
+}
 
 std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views, const ProbeMoment& moment) {
     scene_.shapes[0].user_bounds = moment.shape.user_bounds;

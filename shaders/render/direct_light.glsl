@@ -51,7 +51,7 @@ DirectLight direct_light(Surface surface, Brdf brdf, vec3 view, ShadowSource sha
             open = irradiance * brdf_diffuse(brdf, clamp(dot(view, h), 0.0, 1.0)) +
                    light.intensity * area_light_specular(area, brdf, surface.position, surface.normal, view);
             if (i >= shadows.known) {
-                vec2 turn = evenly_spread(shadows.turn, 7 * i);
+                vec2 turn = evenly_spread(shadows.turn, 7 * light.number);
                 if (shadows.later != vec3(0.0)) {
                     float weight;
                     vec3 target = area_light_point(area, surface.position, surface.normal, turn, weight);

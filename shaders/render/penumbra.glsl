@@ -25,11 +25,12 @@ Light light_of_entry(uint entry) { return LightArray(SceneDataArray(push.scene).
 Penumbra penumbra_at(uint entry) {
     Penumbra p;
     p.index = entry % push.sample_count;
-    uint light = entry / push.sample_count, in_block = p.index - push.first_sample;
+    uint in_block = p.index - push.first_sample;
     vec2 turn = still_noise(push.noise, uvec2(in_block % push.width, in_block / push.width), 0, push.sub_sample);
-    p.turn = evenly_spread(turn, 7 * light);
+    Light light = light_of_entry(entry);
+    p.turn = evenly_spread(turn, 7 * light.number);
     p.surface = SurfaceArray(push.surfaces).at[p.index];
-    p.area = area_light_at(light_of_entry(entry), p.surface.position, p.surface.normal);
+    p.area = area_light_at(light, p.surface.position, p.surface.normal);
     return p;
 }
 

@@ -101,7 +101,7 @@ struct Light {
     vec3 half_u;
     float cos_outer;
     vec3 half_v;
-    uint pad;
+    uint number;  // its own whatever lights come and go: which samples it takes depends on it
 };
 
 // Light from everywhere that nothing else is. The picture is equirectangular: u = 0.5 + atan2(x, -z) / 2π,
@@ -133,7 +133,7 @@ static_assert(sizeof(VertexAttributes) == 52 && offsetof(VertexAttributes, color
 static_assert(sizeof(TriangleRecord) == 56 && offsetof(TriangleRecord, pad) == 52);
 static_assert(sizeof(CatcherRecord) == 48 && offsetof(CatcherRecord, surface) == 44);
 static_assert(sizeof(InstanceData) == 52 && offsetof(InstanceData, node) == 48);
-static_assert(sizeof(Light) == 80 && offsetof(Light, pad) == 76);
+static_assert(sizeof(Light) == 80 && offsetof(Light, number) == 76);
 static_assert(sizeof(Environment) == 168 && offsetof(Environment, irradiance_sh) == 60);
 static_assert(sizeof(SceneData) == 192 && offsetof(SceneData, environment) == 24);
 }  // namespace foveray::shared

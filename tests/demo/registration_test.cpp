@@ -117,7 +117,7 @@ class RegistrationTest : public testing::Test {
         settings.tone_mapping = "none";
         settings.reference_samples = 16;
         headset.start(device, BlendMode::Opaque, settings.near_m, settings.far_m);
-        const scene::Scene scene = scene::load_scene(folder_ / "scene.json");
+        const auto scene = std::make_shared<const scene::Scene>(scene::load_scene(folder_ / "scene.json"));
         FrameLoop loop({device, headset, scene, nullptr, std::nullopt, read_headset_profile(profile).acuity,
                         every_pixel});
         EXPECT_EQ(headset.poll(), xr::Headset::State::Running);

@@ -69,6 +69,7 @@ gpu::DeviceSource Headset::device_source() const {
 }
 
 void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, float far_z) {
+    device_ = &device;
     near_z_ = near_z;
     far_z_ = far_z;
     const auto& modes = instance_->blend_modes();
@@ -96,6 +97,7 @@ void Headset::abandon_frame() {
     XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
     info.displayTime = *open_frame_;
     info.environmentBlendMode = to_xr_blend_mode(blend_);
+    const auto lock = device_->lock_queue();
     xrEndFrame(session_.get(), &info);  // if even that fails, the session ends all the same
     open_frame_.reset();
 }
@@ -246,7 +248,10 @@ Frame Headset::begin_frame() {
     XrFrameState frame_state{XR_TYPE_FRAME_STATE};
     check(xrWaitFrame(session_.get(), &wait_info, &frame_state), "xrWaitFrame");
     const XrFrameBeginInfo begin_info{XR_TYPE_FRAME_BEGIN_INFO};
-    if (check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame") == XR_FRAME_DISCARDED) {
+    auto lock = device_->lock_queue();
+    const XrResult begun = check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame");
+    lock.unlock();
+    if (begun == XR_FRAME_DISCARDED) {
         release_images();  // of the frame that was begun before and never ended
     }
     open_frame_ = frame_state.predictedDisplayTime;
@@ -338,8 +343,8 @@ HeadsetProfile Headset::profile(const Frame& frame) const {
 }
 
 void Headset::release_images() {
-    for (Swapchain& swapchain : color_) swapchain.release();
-    for (Swapchain& swapchain : depth_) swapchain.release();
+    for (Swapchain& swapchain : color_) swapchain.release(*device_);
+    for (Swapchain& swapchain : depth_) swapchain.release(*device_);
 }
 
 void Headset::record_submission(const gpu::Commands& cmd, const Frame& frame,
@@ -389,6 +394,7 @@ void Headset::end_frame(const Frame& frame) {
         info.layers = layers;
     }
     open_frame_.reset();
+    const auto lock = device_->lock_queue();
     check(xrEndFrame(session_.get(), &info), "xrEndFrame");
 }
 

@@ -94,6 +94,7 @@ class Headset {
     std::unique_ptr<Instance> instance_;
     bool is_simulator_ = false;
     std::optional<std::uint32_t> simulator_gpu_;
+    const gpu::Device* device_ = nullptr;  // while there is a session
     SessionHandle session_;
     State state_ = State::Waiting;
     bool begun_ = false;

@@ -52,7 +52,10 @@ Swapchain::Swapchain(XrSession session, Kind kind, uvec2 size, const char* name)
 void Swapchain::record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size) {
     assert(!acquired_);
     std::uint32_t index = 0;
-    check(xrAcquireSwapchainImage(get(), nullptr, &index), "xrAcquireSwapchainImage");
+    {
+        const auto lock = cmd.device().lock_queue();
+        check(xrAcquireSwapchainImage(get(), nullptr, &index), "xrAcquireSwapchainImage");
+    }
     const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
     check(xrWaitSwapchainImage(get(), &wait), "xrWaitSwapchainImage");
     acquired_ = true;
@@ -71,8 +74,9 @@ void Swapchain::record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::Dev
                     color ? Layout::eColorAttachmentOptimal : Layout::eDepthStencilAttachmentOptimal, aspect);
 }
 
-void Swapchain::release() {
+void Swapchain::release(const gpu::Device& device) {
     if (!acquired_) return;
+    const auto lock = device.lock_queue();
     check(xrReleaseSwapchainImage(get(), nullptr), "xrReleaseSwapchainImage");
     acquired_ = false;
 }

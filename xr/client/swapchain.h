@@ -25,7 +25,7 @@ class Swapchain {
     /// corner.
     void record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size);
     /// After the copy was submitted.
-    void release();
+    void release(const gpu::Device& device);
 
     static bool offers(XrSession session, Kind kind);
 

@@ -148,9 +148,12 @@ TEST_F(DeformTest, structuresStayRightThroughRefitsAndRebuilds) {
     const scene::Scene scene = make_scene({.skinned = true, .morphed = true});
     SceneRig rig(device(), scene);
     const View view = view_forward(25.0f, {12, 12});
-    for (std::uint32_t i = 0; i <= AccelScene::rebuild_period + 1; ++i) {
+    const auto triangles = static_cast<std::uint32_t>(scene.meshes[0].primitives[0].indices.size() / 3);
+    const std::uint32_t refits = RebuildPlan::refits_between_builds(triangles);
+    ASSERT_GT(refits, 0u);
+    for (std::uint32_t i = 0; i <= refits + 1; ++i) {
         const auto found = rig.surfaces(from_seconds(i / 40.0), {&view, 1});
-        if (i < AccelScene::rebuild_period - 1) continue;
+        if (i < refits - 1) continue;
         EXPECT_LE(compare(found, reference::Tracer(scene, rig.changes()), view).other_object, 2);
     }
 }

@@ -22,11 +22,13 @@ SceneRig::SceneRig(const gpu::Device& device, const scene::Scene& scene)
       animator_(scene),
       gpu_scene_(device, textures_, scene, slots),
       accel_(device, gpu_scene_, pipeline_, slots),
-      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      primary_(pipeline_.tracer(), pipeline_.primary()),
       shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
-      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      lighting_(pipeline_.tracer(), pipeline_.lighting()),
       resolve_(device, textures_),
-      counters_(device, slots) {}
+      counters_(device, slots) {
+    accel_.fill_table(pipeline_);
+}
 
 SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_from_stage) {
     auto [params, grid] = pixel_grid(views, world_from_stage);

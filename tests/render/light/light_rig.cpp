@@ -36,12 +36,14 @@ LightRig::LightRig(const gpu::Device& device, const scene::Scene& scene)
       accel_(device, gpu_scene_, pipeline_, 1),
       probes_(device, textures_, scene, pipeline_.tracer(), pipeline_.probes()),
       sampling_(device, 1, pipeline_.tracer(), pipeline_.fixation()),
-      primary_(device, pipeline_.tracer(), pipeline_.primary()),
+      primary_(pipeline_.tracer(), pipeline_.primary()),
       shadows_(device, textures_, pipeline_.tracer(), pipeline_.shadows()),
-      lighting_(device, pipeline_.tracer(), pipeline_.lighting()),
+      lighting_(pipeline_.tracer(), pipeline_.lighting()),
       history_(device, textures_),
       resolve_(device, textures_),
-      counters_(device, 1) {}
+      counters_(device, 1) {
+    accel_.fill_table(pipeline_);
+}
 
 std::vector<std::byte> LightRig::read(const gpu::Buffer& source, vk::DeviceSize size) {
     gpu::Buffer target(device_, "test readback", size, gpu::Residence::Readback);

@@ -41,7 +41,9 @@ RayRig::RayRig(const gpu::Device& device, const scene::Scene& scene, const UserS
       pipeline_(device, textures_, 1, scene, users),
       animator_(scene),
       gpu_scene_(device, textures_, scene, 1),
-      accel_(device, gpu_scene_, pipeline_, 1) {}
+      accel_(device, gpu_scene_, pipeline_, 1) {
+    accel_.fill_table(pipeline_);
+}
 
 template <typename Answer>
 std::vector<Answer> RayRig::trace(SceneRayTracer& tracer, RayGeneration shader, Nanoseconds time,

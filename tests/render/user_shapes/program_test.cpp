@@ -1,19 +1,10 @@
 // The program with users' shapes: exit codes, and a file that is edited while it is shown.
-#include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <fcntl.h>
-#include <fstream>
-#include <spawn.h>
-#include <sys/wait.h>
+#include <chrono>
 #include <thread>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
-#include "base/image.h"
-#include "tests/demo/run_program.h"
-#include "tests/fakes/temporary_folder.h"
+#include "tests/demo/running_view.h"
 
 namespace foveray {
 namespace {
@@ -80,87 +71,13 @@ TEST_F(UserShapeProgram, RefusesBadShapes) {
     EXPECT_NE(result.err.find("shape.glsl: cannot be read"), std::string::npos) << result.err;
 }
 
-/// `foveray view` until it is told to end, on a simulated headset that keeps what it shows. As the system's
-/// runtime: what `--runtime simulator` shows is not kept.
-class View {
-  public:
-    explicit View(const fakes::TemporaryFolder& folder) : folder_(folder) {
-        ::setenv("FOVERAY_VALIDATION", "1", 1);
-        ::setenv("XR_RUNTIME_JSON", FOVERAY_SIMULATOR_JSON, 1);
-        ::setenv("FOVERAY_SIMULATOR_PROFILE", "ci", 1);
-        fs::create_directory(captures());
-        ::setenv("FOVERAY_SIMULATOR_CAPTURE", captures().c_str(), 1);
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, (folder / "log").c_str(),
-                                         O_CREAT | O_WRONLY, 0600);
-        std::vector<std::string> words = {FOVERAY_PROGRAM, "view", (folder / "scene.json").string(),
-                                          "--runtime", "system"};
-        std::vector<char*> argv;
-        for (std::string& word : words) argv.push_back(word.data());
-        argv.push_back(nullptr);
-        EXPECT_EQ(posix_spawn(&pid_, FOVERAY_PROGRAM, &actions, nullptr, argv.data(), environ), 0);
-        posix_spawn_file_actions_destroy(&actions);
-        for (const char* name : {"XR_RUNTIME_JSON", "FOVERAY_SIMULATOR_PROFILE", "FOVERAY_SIMULATOR_CAPTURE"})
-            ::unsetenv(name);
-    }
-    ~View() {
-        if (pid_ > 0) ::kill(pid_, SIGKILL);
-    }
-
-    std::string log() const { return fakes::file_bytes(folder_ / "log"); }
-    void wait_for(const std::string& part) const {
-        EXPECT_TRUE(until([&] { return log().find(part) != std::string::npos; })) << part << "\n" << log();
-    }
-    /// The middle of the left eye's picture, of a frame that began after now.
-    vec3 color_now() const {
-        const std::size_t before = frames().size();
-        const bool shown = until([&] { return frames().size() > before + 3; });
-        EXPECT_TRUE(shown) << log();
-        if (!shown) return vec3(-1.0f);
-        const Image image = read_image(frames()[before + 2], 3);
-        const std::uint8_t* middle = image.at(image.width / 2, image.height / 2);
-        return vec3(middle[0], middle[1], middle[2]) / 255.0f;
-    }
-    int end() {
-        ::kill(pid_, SIGINT);
-        int status = 0;
-        ::waitpid(pid_, &status, 0);
-        pid_ = 0;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    }
-
-  private:
-    fs::path captures() const { return folder_ / "captures"; }
-    /// What the left eye saw, in the order of time; the last may still be written.
-    std::vector<fs::path> frames() const {
-        std::vector<fs::path> result;
-        for (const auto& entry : fs::directory_iterator(captures())) {
-            if (entry.path().filename().string().ends_with("_left.png")) result.push_back(entry.path());
-        }
-        std::ranges::sort(result);
-        return result;
-    }
-    template <typename Condition>
-    static bool until(const Condition& condition) {
-        for (int i = 0; i < 2400; ++i) {
-            if (condition()) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        }
-        return false;
-    }
-
-    const fakes::TemporaryFolder& folder_;
-    pid_t pid_ = 0;
-};
-
 TEST_F(UserShapeProgram, ReloadsASavedFileAndKeepsTheLastGoodOne) {
-    const auto expect_color = [](const View& view, int channel) {
+    const auto expect_color = [](const fakes::RunningView& view, int channel) {
         const vec3 color = view.color_now();
         for (int i = 0; i < 3; ++i) EXPECT_EQ(color[i] > 0.5f, i == channel) << i << " " << color[i];
     };
     write_shape(ball("1.0, 0.0, 0.0"));
-    View view(folder_);
+    fakes::RunningView view(folder_, {}, fakes::RunningView::Pictures::Kept);
     view.wait_for("Ctrl-C ends");
     expect_color(view, 0);
     write_shape(ball("0.0, 1.0, 0.0"));

@@ -165,7 +165,8 @@ TEST_F(UserShapeRays, FollowAPipelineThatTakesTheOthersPlace) {
     scene::SceneAnimator animator(red);
     render::GpuScene gpu_scene(device(), textures, red, 1);
     render::AccelScene accel(device(), gpu_scene, pipeline, 1);
-    render::PrimaryStage primary(device(), pipeline.tracer(), pipeline.primary());
+    accel.fill_table(pipeline);
+    render::PrimaryStage primary(pipeline.tracer(), pipeline.primary());
     render::RayCounters counters(device(), 1);
     const auto color = [&] {
         const gpu::Commands cmd = ring.begin();
