@@ -4,8 +4,21 @@
 #include <cmath>
 #include <set>
 
+#include "render/scene/user_shape_object.h"
+
 namespace foveray::scene {
 namespace {
+
+/// A cubic curve swings out of the range that its keys are in: shaders loop by these numbers.
+void keep_in_range(const Scene& scene, const Shape& shape, std::vector<float>& values) {
+    const std::vector<ShapeParameter>& parameters =
+        shape.kind == ShapeKind::User ? user_parameters(scene, shape) : shape_kind(shape.kind).parameters;
+    std::size_t i = 0;
+    for (const ShapeParameter& p : parameters) {
+        for (const std::size_t end = i + p.width; i < end; ++i)
+            values[i] = std::clamp(values[i], p.least, p.most);
+    }
+}
 
 /// What animations change of the nodes, starting from the scene as it was loaded.
 struct Posed {
@@ -97,6 +110,9 @@ Posed pose_at(const Scene& scene, std::span<const MaterialState> animated, Nanos
                     break;
             }
         }
+    }
+    for (ShapeId id = 0; id < scene.shapes.size(); ++id) {
+        if (scene.shapes[id].animated) keep_in_range(scene, scene.shapes[id], posed.shape_values[id]);
     }
     return posed;
 }

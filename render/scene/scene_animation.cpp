@@ -8,6 +8,9 @@
 namespace foveray::scene {
 namespace {
 
+constexpr float latest = 1e6f;    // seconds
+constexpr float steepest = 1e9f;  // change a second: what becomes of it stays a finite number
+
 /// What a channel may change, with the width and range of its values.
 struct Animatable {
     ShapeParameter value;
@@ -58,6 +61,9 @@ AnimationChannel read_channel(const SceneValues& values, const Json& json, const
         if (!increasing || !std::isfinite(c.times.back())) {
             values.fault(place + "/times", "do not increase from key to key", "correct them");
         }
+        if (c.times.back() > latest) {
+            values.fault(place + "/times", "go beyond 1 000 000 seconds", "make the animation shorter");
+        }
     }
     const Json& keys = json["values"];
     const std::size_t wanted = c.times.size() * (c.interpolation == Interpolation::CubicSpline ? 3 : 1);
@@ -69,7 +75,7 @@ AnimationChannel read_channel(const SceneValues& values, const Json& json, const
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const bool tangent = c.interpolation == Interpolation::CubicSpline && i % 3 != 1;
         ShapeParameter range = property;
-        if (tangent) range.least = -1e30f, range.most = 1e30f, range.rotation = false;
+        if (tangent) range.least = -steepest, range.most = steepest, range.rotation = false;
         std::vector<float> v = read_numbers(values, keys[i], range, place + "/values/" + std::to_string(i));
         if (c.property == AnimatedProperty::Rotation && !tangent) {
             const quat q = rotation_of(v);

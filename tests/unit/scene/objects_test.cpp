@@ -158,6 +158,19 @@ TEST_F(SceneObjects, partsOfBlends) {
     expect_near(scene.bounds.max, {0.1f, 0.2f, 0.3f});  // what is taken away adds nothing
 }
 
+TEST_F(SceneObjects, boundsHoldWhatFlowsOutOfBlends) {
+    // Two in one place join to a surface where a quarter of each's distance along x is 0.1 + 0.25 * 1.
+    const Json ball = {{"sphere", {{"radius", 0.1}}}, {"transform", {{"scale", {4, 1, 1}}}}};
+    const Scene scene =
+        load({{"shape", "blend"}, {"parts", {ball, ball}}, {"parameters", {{"smoothness", 1}}}});
+    expect_near(scene.bounds.max, {1.4f, 0.35f, 0.35f});
+    expect_near(scene.bounds.min, {-1.4f, -0.35f, -0.35f});
+    const Json box = {{"box", {{"half_size", {0.1, 0.1, 0.1}}}}, {"transform", {{"scale", {4, 1, 1}}}}};
+    expect_near(
+        load({{"shape", "blend"}, {"parts", {box, box}}, {"parameters", {{"smoothness", 1}}}}).bounds.max,
+        {0.65f, 0.35f, 0.35f});
+}
+
 TEST_F(SceneObjects, badPartsOfBlendsAreNamed) {
     const Json sphere = {{"sphere", Json::object()}};
     expect_bad({{"shape", "blend"}}, "has no \"parts\"");
@@ -204,6 +217,28 @@ TEST_F(SceneObjects, sizesOfBlendsAreChecked) {
                     {"parameters", {{"smoothness", smoothness}}}},
                    "/objects/0/parameters/smoothness");
     }
+}
+
+TEST_F(SceneObjects, cubicCurvesThatSwingOutStayInRange) {
+    const auto animated = [](const char* shape, const char* property, double key, double tangent,
+                             double end) {
+        return Json{{"shape", shape},
+                    {"animation",
+                     {{{"property", property},
+                       {"interpolation", "cubic"},
+                       {"times", {0, end}},
+                       {"values", {0, key, tangent, tangent, key, 0}}}}}};
+    };
+    const Scene bulb = load(animated("mandelbulb", "iterations", 6, 1e5, 2));
+    SceneAnimator iterations(bulb);
+    EXPECT_EQ(iterations.advance(from_seconds(0.5)).shapes[0].values[1], 16.0f);
+    EXPECT_EQ(iterations.advance(from_seconds(1.5)).shapes[0].values[1], 1.0f);
+    const Scene ball = load(animated("sphere", "radius", 0.3, 1e9, 1e6));
+    SceneAnimator radius(ball);
+    expect_near(radius.advance(from_seconds(2e5)).shapes[0].bounds.max, vec3(1e4f));
+    expect_near(radius.advance(from_seconds(8e5)).shapes[0].bounds.max, vec3(1e-4f));
+    expect_bad(animated("sphere", "radius", 0.3, 1e10, 2), "/objects/0/animation/0/values/2");
+    expect_bad(animated("sphere", "radius", 0.3, 0, 1e7), "/objects/0/animation/0/times: go beyond");
 }
 
 TEST_F(SceneObjects, orientationsAreAnimatedThroughOppositeKeys) {
