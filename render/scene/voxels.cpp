@@ -36,7 +36,7 @@ std::uint32_t color_bits(vec3 color) {
 }
 
 glm::uvec2 octahedral(vec3 n, float most) {
-    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-12f);  // what is open all round has none
     vec2 p(n.x, n.y);
     if (n.z < 0.0f) {
         p = (1.0f - glm::abs(vec2(n.y, n.x))) * vec2(n.x >= 0.0f ? 1.0f : -1.0f, n.y >= 0.0f ? 1.0f : -1.0f);

@@ -36,9 +36,12 @@ struct VoxelSum {
     vec3 normal;
 };
 
+float largest_of(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
 // `direction`: in voxels, unit length; `way`: through the node, voxels; `width`: the node's; `filled`: size of the node's
-// part within the object's box, outside of which there is nothing.
-void add_node(inout VoxelSum sum, VoxelNode node, vec3 direction, float way, float width, vec3 filled, float t) {
+// part within the object's box, outside of which there is nothing. `face`: by which the ray came in; the normal of cubes whose
+// sides turn all ways, such as a wall whose two sides are in the node.
+void add_node(inout VoxelSum sum, VoxelNode node, vec3 direction, float way, float width, vec3 filled, vec3 face, float t) {
     vec3 slant = abs(direction);
     // The longer the way through the node the more the ray meets, as through a thin medium; but what fills its box is met
     // anyhow. Either has the same mean over all rays through the box.
@@ -63,7 +66,9 @@ void add_node(inout VoxelSum sum, VoxelNode node, vec3 direction, float way, flo
     float gain = alpha - sum.alpha;
     sum.alpha = alpha;
     sum.color += gain * node.color;
-    sum.normal += gain * (facing < 0.0 ? -node.sheet : node.sheet) / max(length(node.sheet), 1e-6);
+    bool sided = (record.flags & VOXELS_SHOW_FACES) == 0 || length(node.sheet) > 0.1 * largest_of(node.coverage);
+    vec3 normal = sided ? node.sheet / max(length(node.sheet), 1e-6) : face;
+    sum.normal += sided && facing < 0.0 ? -gain * normal : gain * normal;
     sum.t += gain * t;
 }
 
@@ -78,6 +83,13 @@ float voxel_node_width(RayCone cone, float t) {
     int coarsest = int(record.depth) - int(VOXEL_LEAST_DEPTH);
     float level = floor(log2(max(VOXEL_CONE_PART * ray_cone_width(cone, t) / record.voxel_size, 1e-6)));
     return min(level, float(coarsest)) < 1.0 ? 0.0 : exp2(min(level, float(coarsest))) * record.voxel_size;
+}
+
+// Outwards, of the side of a cube by which the ray comes in.
+vec3 voxel_face(int axis, uint mirror) {
+    vec3 normal = vec3(0.0);
+    normal[axis] = (mirror >> axis & 1) != 0 ? 1.0 : -1.0;
+    return normal;
 }
 
 // `origin`, `direction`: object space; `cone`: in object units along the ray's t. `all`: go on over gaps.
@@ -139,8 +151,7 @@ VoxelHit walk_voxels(vec3 origin, vec3 direction, RayCone cone, float t_max, boo
                     uvec2 node = nodes.at[index];
                     vec3 normal = voxel_leaf_normal(node.y);
                     if ((record.flags & VOXELS_SHOW_FACES) != 0) {
-                        normal = vec3(0.0);
-                        normal[axis] = (mirror >> axis & 1) != 0 ? 1.0 : -1.0;
+                        normal = voxel_face(axis, mirror);
                     }
                     float gain = 1.0 - sum.alpha;
                     return VoxelHit(start + sum.t + gain * t, start + t, sum.color + gain * voxel_color(node.x),
@@ -155,7 +166,7 @@ VoxelHit walk_voxels(vec3 origin, vec3 direction, RayCone cone, float t_max, boo
                         vec3 filled = min(vec3(place + width), box_max) - max(vec3(place), box_min);
                         float way = (min(t_exit, box_end) - t) * speed;
                         add_node(sum, voxel_inner(node.x, node.y), unit, way, float(width), filled,
-                                 0.5 * (t + t_exit));
+                                 voxel_face(axis, mirror), 0.5 * (t + t_exit));
                         last_exit = t_exit;
                         if (sum.alpha > VOXEL_OPAQUE) break;
                     }

@@ -193,6 +193,42 @@ TEST_F(VoxelTest, theLevelFollowsTheCone) {
     }
 }
 
+/// Walls whose two sides are in one node, as .vox files have them: what is open on both sides has no normal.
+TEST_F(VoxelTest, coarseRaysMeetTheFacesOfThinWalls) {
+    constexpr std::uint32_t side = 512;
+    for (const std::uint32_t thickness : {1u, 2u}) {
+        std::vector<VoxelSample> samples;
+        for (std::uint32_t i = 0; i < side * side; ++i) {
+            for (std::uint32_t z = 0; z < thickness; ++z) {
+                const float open = thickness == 1 ? 0.0f : z == 0 ? -1.0f : 1.0f;
+                samples.push_back({scene::morton_of({i % side, i / side, side / 2 + z}), 1.0f, vec3(1.0f),
+                                   vec3(0, 0, open)});
+            }
+        }
+        const auto voxels =
+            std::make_shared<Voxels>(tree_of(std::move(samples), 1.0f / side, vec3(-0.5f), true));
+        const scene::Scene scene = scene_with(voxels, mat4(1.0f));
+        RayRig rig(device(), scene);
+        fakes::Random random(5);
+        std::vector<shared::TestRay> rays(200);
+        for (shared::TestRay& ray : rays) {
+            const vec3 target = random.vector(-0.2f, 0.2f);
+            ray.origin = vec3(random.in(-2, 2), random.in(-2, 2), random.below(2) == 0 ? -2.0f : 2.0f);
+            ray.direction = glm::normalize(vec3(target.x, target.y, 0.0f) - ray.origin);
+            ray.t_max = ray.shadow_t_max = 100.0f;
+            ray.cone = {.width = 20.0f / side, .spread = 0.0f};
+        }
+        const auto answers = rig.answers(0, rays);
+        int other = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(answers[i].surface.kind, shared::SURFACE_VIRTUAL);
+            EXPECT_EQ(answers[i].surface.flags & shared::SURFACE_FLAG_BACK_FACE, 0u);
+            other += answers[i].surface.normal.z * glm::sign(rays[i].origin.z) < 0.95f;
+        }
+        EXPECT_LE(other, 4) << "of walls " << thickness << " thick";
+    }
+}
+
 /// Mean radiance and coverage of an unlit object seen in `size` x `size` pixels, each the mean of `fine`
 /// squared.
 vec4 mean_seen(const gpu::Device& device, const std::shared_ptr<const Voxels>& voxels, const quat& turn,
