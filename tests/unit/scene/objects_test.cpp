@@ -305,7 +305,13 @@ TEST_F(SceneObjects, badSolidsAreNamed) {
                            {"transform", {{"scale", {1000, 1e-3, 1}}}}};
     expect_bad_solid(squeezed, "cannot be undone");
     Json deep = sphere;
-    for (int i = 0; i < 5000; ++i) deep = {{"union", {deep, sphere}}};
+    for (int i = 0; i < 5000; ++i) {
+        Json list = Json::array();
+        list.push_back(std::move(deep));
+        list.push_back(sphere);
+        deep = Json::object();
+        deep["union"] = std::move(list);
+    }
     expect_bad_solid(deep, "nested too deeply");
 }
 
