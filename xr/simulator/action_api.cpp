@@ -6,13 +6,17 @@
 namespace foveray::simulator {
 namespace {
 
-std::string read_name(std::string_view name) {
+template <std::size_t Size>
+std::string read_name(const char (&array)[Size]) {
+    const std::string_view name = fixed_text(array, XR_ERROR_NAME_INVALID);
     verify(!name.empty(), XR_ERROR_NAME_INVALID);
     verify(is_well_formed_name(name), XR_ERROR_PATH_FORMAT_INVALID);
     return std::string(name);
 }
 
-std::string read_localized_name(std::string_view name) {
+template <std::size_t Size>
+std::string read_localized_name(const char (&array)[Size]) {
+    const std::string_view name = fixed_text(array, XR_ERROR_LOCALIZED_NAME_INVALID);
     verify(!name.empty(), XR_ERROR_LOCALIZED_NAME_INVALID);
     return std::string(name);
 }
@@ -68,8 +72,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateActionSet(XrInstance instance, const XrAc
         verify_structure(info, XR_TYPE_ACTION_SET_CREATE_INFO);
         verify(set != nullptr);
         *set = add_object(
-            std::make_shared<ActionSet>(object, read_name(fixed_text(info->actionSetName)),
-                                        read_localized_name(fixed_text(info->localizedActionSetName))),
+            std::make_shared<ActionSet>(object, read_name(info->actionSetName),
+                                        read_localized_name(info->localizedActionSetName), info->priority),
             object->id());
     });
 }
@@ -84,8 +88,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateAction(XrActionSet set, const XrActionCre
         const auto object = get<ActionSet>(set);
         verify_structure(info, XR_TYPE_ACTION_CREATE_INFO);
         verify(action != nullptr);
-        read_name(fixed_text(info->actionName));
-        read_localized_name(fixed_text(info->localizedActionName));
+        read_name(info->actionName);
+        read_localized_name(info->localizedActionName);
         verify((info->actionType >= XR_ACTION_TYPE_BOOLEAN_INPUT &&
                 info->actionType <= XR_ACTION_TYPE_POSE_INPUT) ||
                info->actionType == XR_ACTION_TYPE_VIBRATION_OUTPUT);
@@ -214,12 +218,12 @@ XRAPI_ATTR XrResult XRAPI_CALL xrSyncActions(XrSession session, const XrActionsS
             }
             active.push_back({set.get(), subaction_path});
         }
+        object->play_without_frames();
         const bool focused = object->focused();
         if (!focused) active.clear();
         const XrTime now = instance.clock().now();
-        inputs.sync(active, instance.clock().session_time(now), now);
-        if (inputs.take_profile_change()) {
-            instance.push_event(XrEventDataInteractionProfileChanged{
+        if (inputs.sync(active, instance.clock().session_time(now), now)) {
+            instance.events().push(XrEventDataInteractionProfileChanged{
                 XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED, nullptr, handle_of(*object)});
         }
         return focused ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;

@@ -2,8 +2,12 @@
 
 namespace foveray::simulator {
 
-ActionSet::ActionSet(std::shared_ptr<Instance> instance, std::string name, std::string localized_name)
-    : instance_(std::move(instance)), name_(std::move(name)), localized_name_(std::move(localized_name)) {
+ActionSet::ActionSet(std::shared_ptr<Instance> instance, std::string name, std::string localized_name,
+                     std::uint32_t priority)
+    : instance_(std::move(instance)),
+      name_(std::move(name)),
+      localized_name_(std::move(localized_name)),
+      priority_(priority) {
     verify(instance_->claim_name(name_, false), XR_ERROR_NAME_DUPLICATED);
     if (!instance_->claim_name(localized_name_, true)) {
         instance_->release_name(name_, false);
@@ -20,11 +24,14 @@ std::shared_ptr<Action> ActionSet::create_action(const std::shared_ptr<ActionSet
                                                  const XrActionCreateInfo& info) {
     verify(!attached_, XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
     auto action = std::make_shared<Action>(self, info);
-    for (const auto& other : actions()) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& weak : actions_) {
+        const auto other = weak.lock();
+        if (!other || other->destroyed()) continue;
         verify(other->name() != action->name(), XR_ERROR_NAME_DUPLICATED);
         verify(other->localized_name() != action->localized_name(), XR_ERROR_LOCALIZED_NAME_DUPLICATED);
     }
-    const std::lock_guard lock(mutex_);
+    std::erase_if(actions_, [](const auto& weak) { return weak.expired(); });
     actions_.push_back(action);
     return action;
 }

@@ -23,21 +23,26 @@ class ActionSet : public Object {
 
     /// Refuses names that a living set of the instance has (XR_ERROR_NAME_DUPLICATED,
     /// _LOCALIZED_NAME_DUPLICATED).
-    ActionSet(std::shared_ptr<Instance> instance, std::string name, std::string localized_name);
+    ActionSet(std::shared_ptr<Instance> instance, std::string name, std::string localized_name,
+              std::uint32_t priority);
     void on_destroy() override;
 
     Instance& instance() const { return *instance_; }
+    std::uint32_t priority() const { return priority_; }
     /// Attached sets cannot change any more.
     bool attached() const { return attached_; }
     void attach() { attached_ = true; }
 
+    /// Refuses names that a living action of the set has.
     std::shared_ptr<Action> create_action(const std::shared_ptr<ActionSet>& self,
                                           const XrActionCreateInfo& info);
+    /// Destroyed ones too, as long as something uses them.
     std::vector<std::shared_ptr<Action>> actions() const;
 
   private:
     std::shared_ptr<Instance> instance_;
     std::string name_, localized_name_;
+    std::uint32_t priority_;
     std::atomic<bool> attached_ = false;
     mutable std::mutex mutex_;
     std::vector<std::weak_ptr<Action>> actions_;  // by age
@@ -49,7 +54,10 @@ class Action : public Object {
     static constexpr XrObjectType object_type = XR_OBJECT_TYPE_ACTION;
 
     Action(std::shared_ptr<ActionSet> set, const XrActionCreateInfo& info);
+    /// Its names are free again.
+    void on_destroy() override { destroyed_ = true; }
 
+    bool destroyed() const { return destroyed_; }
     ActionSet& set() const { return *set_; }
     XrActionType type() const { return type_; }
     const std::string& name() const { return name_; }
@@ -63,6 +71,7 @@ class Action : public Object {
     std::string name_, localized_name_;
     XrActionType type_;
     std::vector<XrPath> subaction_paths_;
+    std::atomic<bool> destroyed_ = false;
 };
 
 }  // namespace foveray::simulator

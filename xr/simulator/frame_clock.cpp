@@ -33,15 +33,24 @@ Nanoseconds FrameClock::now() const {
 }
 
 FrameTime FrameClock::next_frame() {
-    if (mode_ == TimeMode::Real) {
-        if (!started_) first_display_time_ = monotonic_now() + period_;
-        const Nanoseconds start = first_display_time_ - period_;
-        next_index_ = due_frame(monotonic_now() - start, period_, next_index_);
-        const Nanoseconds wake = start + static_cast<Nanoseconds>(next_index_) * period_;
-        std::this_thread::sleep_until(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(wake)));
-    }
+    if (mode_ == TimeMode::Virtual) return frame(next_index_);
+    if (!started_) first_display_time_ = monotonic_now() + period_;
+    const Nanoseconds start = first_display_time_ - period_;
+    const std::uint64_t index = due_frame(monotonic_now() - start, period_, next_index_);
+    const Nanoseconds wake = start + static_cast<Nanoseconds>(index) * period_;
+    std::this_thread::sleep_until(std::chrono::steady_clock::time_point(std::chrono::nanoseconds(wake)));
+    return frame(index);
+}
+
+FrameTime FrameClock::tick() {
+    if (mode_ == TimeMode::Virtual) return frame(next_index_);
+    if (!started_) first_display_time_ = monotonic_now();
+    return frame(due_frame(monotonic_now() - first_display_time_, period_, 0));
+}
+
+FrameTime FrameClock::frame(std::uint64_t index) {
     started_ = true;
-    const std::uint64_t index = next_index_++;
+    next_index_ = index + 1;
     last_display_time_ = first_display_time_ + static_cast<Nanoseconds>(index) * period_;
     return {index, last_display_time_, period_};
 }

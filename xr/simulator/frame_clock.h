@@ -28,17 +28,22 @@ class FrameClock {
     Nanoseconds now() const;
     /// Waits until the next frame may begin. One caller at a time.
     FrameTime next_frame();
+    /// For sessions without frames, at once: the frame that is due; in virtual time the next one. One caller
+    /// at a time.
+    FrameTime tick();
 
     /// Time since frame 0 was shown; 0 before that.
     Nanoseconds session_time(Nanoseconds time) const;
     Nanoseconds time_of(Nanoseconds session_time) const { return first_display_time_ + session_time; }
 
   private:
+    FrameTime frame(std::uint64_t index);
+
     TimeMode mode_;
     Nanoseconds period_;
     std::atomic<Nanoseconds> first_display_time_, last_display_time_;
     std::atomic<bool> started_ = false;
-    std::uint64_t next_index_ = 0;
+    std::atomic<std::uint64_t> next_index_ = 0;
 };
 
 /// Real time: the frame that may begin `elapsed` after frame 0 began, at least `next_index`.

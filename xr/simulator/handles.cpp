@@ -16,8 +16,8 @@ struct Entry {
 
 struct Registry {
     std::shared_mutex mutex;
-    std::uint64_t next_id = 0x100;
-    std::map<std::uint64_t, Entry> entries;  // by age, so that children stand behind their parents
+    std::uint64_t next_id = 0x5f00'0000'0000'0000;  // far from what a client might make up
+    std::map<std::uint64_t, Entry> entries;         // by age, so that children stand behind their parents
 };
 
 /// Objects that a program leaves behind are not freed: they must not reach for its Vulkan device while it
@@ -51,7 +51,18 @@ std::shared_ptr<Object> find_object(std::uint64_t id, XrObjectType type) {
     Registry& r = registry();
     const std::shared_lock lock(r.mutex);
     const auto found = r.entries.find(id);
-    return found != r.entries.end() && found->second.type == type ? found->second.object : nullptr;
+    if (found == r.entries.end() || found->second.type != type) return nullptr;
+    object_of_call = id;
+    return found->second.object;
+}
+
+std::shared_ptr<Object> find_root(std::uint64_t id) {
+    Registry& r = registry();
+    const std::shared_lock lock(r.mutex);
+    auto found = r.entries.find(id);
+    while (found != r.entries.end() && found->second.parent != 0)
+        found = r.entries.find(found->second.parent);
+    return found != r.entries.end() ? found->second.object : nullptr;
 }
 
 bool destroy_object(std::uint64_t id, XrObjectType type) {

@@ -33,6 +33,8 @@ class Object {
 std::uint64_t register_object(std::shared_ptr<Object> object, XrObjectType type, std::uint64_t parent);
 /// nullptr when the handle is not alive or of another type.
 std::shared_ptr<Object> find_object(std::uint64_t id, XrObjectType type);
+/// The instance that an object belongs to; nullptr when it is gone.
+std::shared_ptr<Object> find_root(std::uint64_t id);
 /// The object and its children. False when there is none.
 bool destroy_object(std::uint64_t id, XrObjectType type);
 

@@ -93,6 +93,13 @@ InteractionProfile make_profile(const ProfileText& text) {
     return profile;
 }
 
+/// .../input/trigger of .../input/trigger/value.
+std::string_view identifier_path(const InputSource& source) {
+    const std::size_t start = source.component.find('/', 1) + 1;
+    const std::size_t length = std::min(source.component.find('/', start), source.component.size());
+    return std::string_view(source.path).substr(0, source.user.size() + length);
+}
+
 /// OpenXR 1.0, section 11.4: Boolean and Float turn into each other; everything else must be alike.
 bool goes_together(InputKind kind, XrActionType type) {
     switch (type) {
@@ -133,9 +140,12 @@ const InputSource* InteractionProfile::find(std::string_view path_text, XrAction
 
 bool InteractionProfile::knows(std::string_view path_text) const {
     return std::ranges::any_of(sources, [&](const InputSource& source) {
-        const std::string_view own = source.path;
-        return own == path_text || own.substr(0, own.rfind('/')) == path_text;
+        return source.path == path_text || identifier_path(source) == path_text;
     });
+}
+
+bool InteractionProfile::has_user(std::string_view user_path) const {
+    return std::ranges::any_of(sources, [&](const InputSource& source) { return source.user == user_path; });
 }
 
 std::span<const InteractionProfile> interaction_profiles() {
@@ -154,7 +164,16 @@ const InteractionProfile* find_interaction_profile(std::string_view path) {
 }
 
 bool is_user_path(std::string_view path) {
-    return hand_of(path) || path == "/user/head" || path == "/user/gamepad" || path == eyes_path;
+    return std::ranges::find(user_paths, path) != std::end(user_paths);
+}
+
+const InputSource* find_source(std::string_view path, InputKind kind) {
+    for (const InteractionProfile& profile : interaction_profiles()) {
+        for (const InputSource& source : profile.sources) {
+            if (source.path == path && source.kind == kind) return &source;
+        }
+    }
+    return nullptr;
 }
 
 std::optional<int> hand_of(std::string_view user_path) {
@@ -189,7 +208,10 @@ std::string localized_name(const InteractionProfile& profile, const InputSource&
     const auto add = [&](std::string_view text) { name += (name.empty() ? "" : " ") + std::string(text); };
     if (which & XR_INPUT_SOURCE_LOCALIZED_NAME_USER_PATH_BIT) {
         const auto hand = hand_of(source.user);
-        add(hand ? (*hand == 0 ? "Left Hand" : "Right Hand") : source.user == eyes_path ? "Eyes" : "Head");
+        add(hand                             ? (*hand == 0 ? "Left Hand" : "Right Hand")
+            : source.user == eyes_path       ? "Eyes"
+            : source.user == "/user/gamepad" ? "Gamepad"
+                                             : "Head");
     }
     if (which & XR_INPUT_SOURCE_LOCALIZED_NAME_INTERACTION_PROFILE_BIT) add(profile.name);
     if (which & XR_INPUT_SOURCE_LOCALIZED_NAME_COMPONENT_BIT) {

@@ -33,6 +33,8 @@ struct InteractionProfile {
     const InputSource* find(std::string_view path_text, XrActionType type) const;
     /// The path names a source of this profile or the identifier of one.
     bool knows(std::string_view path_text) const;
+    /// It has sources of that user path.
+    bool has_user(std::string_view user_path) const;
 };
 
 std::span<const InteractionProfile> interaction_profiles();
@@ -43,7 +45,11 @@ inline constexpr std::string_view eye_gaze_profile_path = "/interaction_profiles
 inline constexpr std::string_view left_hand_path = "/user/hand/left";
 inline constexpr std::string_view right_hand_path = "/user/hand/right";
 inline constexpr std::string_view eyes_path = "/user/eyes_ext";
+inline constexpr std::string_view user_paths[] = {left_hand_path, right_hand_path, "/user/head",
+                                                  "/user/gamepad", eyes_path};
 bool is_user_path(std::string_view path);
+/// The source of that path and kind in any profile; nullptr when there is none.
+const InputSource* find_source(std::string_view path, InputKind kind);
 
 /// 0 or 1 of a hand's path.
 std::optional<int> hand_of(std::string_view user_path);

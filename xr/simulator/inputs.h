@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,14 +10,16 @@
 #include <openxr/openxr.h>
 
 #include "xr/simulator/actions.h"
+#include "xr/simulator/devices.h"
 #include "xr/simulator/input_sources.h"
 
 namespace foveray::simulator {
 
 /// The actions attached to a session: which sources they are bound to and what the last xrSyncActions read.
+/// Nothing changes between two xrSyncActions. Safe to use from any thread.
 class Inputs {
   public:
-    explicit Inputs(Instance& instance) : instance_(instance) {}
+    Inputs(Instance& instance, const Devices& devices) : instance_(instance), devices_(devices) {}
 
     /// What an action, seen through one subaction path or all, read. Boolean and Float values stand in
     /// `value.x`.
@@ -35,23 +36,21 @@ class Inputs {
         XrPath subaction_path;
     };
 
-    /// Binds to the headset's own controllers if the client suggested bindings for them, or else to the first
-    /// other interaction profile that it did. Refuses with XR_ERROR_ACTIONSETS_ALREADY_ATTACHED.
+    /// Refuses with XR_ERROR_ACTIONSETS_ALREADY_ATTACHED.
     void attach(std::vector<std::shared_ptr<ActionSet>> sets);
     bool attached() const;
     bool is_attached(const ActionSet& set) const;
 
-    /// Reads the sources of the active sets at a session time; everything else becomes inactive.
-    /// Refuses with XR_ERROR_ACTIONSET_NOT_ATTACHED.
-    void sync(std::span<const ActiveSet> active, Nanoseconds session_time, XrTime now);
+    /// Chooses interaction profiles for the connected devices: a device's own where the client suggested
+    /// bindings for it, else the headset's own, else another one that has them. Then reads the sources of the
+    /// active sets; everything else becomes inactive. True when a profile changed. Refuses with
+    /// XR_ERROR_ACTIONSET_NOT_ATTACHED.
+    bool sync(std::span<const ActiveSet> active, Nanoseconds session_time, XrTime now);
 
     State state(const Action& action, XrPath subaction_path) const;
     std::vector<const InputSource*> bound_sources(const Action& action) const;
-
     /// XR_NULL_PATH when nothing is bound.
     XrPath current_profile(std::string_view user_path) const;
-    /// Once after each change of a profile.
-    bool take_profile_change();
 
   private:
     struct Binding {
@@ -64,17 +63,22 @@ class Inputs {
         XrPath subaction_path;
         auto operator<=>(const Key&) const = default;
     };
+    using Profiles = std::map<std::string, const InteractionProfile*, std::less<>>;  // by user path
 
-    void bind(const InteractionProfile& profile, std::span<const SuggestedBinding> suggestions);
-    std::optional<vec2> read(const InputSource& source, Nanoseconds session_time) const;
-    State combine(const Action& action, XrPath subaction_path, Nanoseconds session_time) const;
+    Profiles choose_profiles() const;
+    void bind();
+    std::vector<const Binding*> live_bindings(std::span<const ActiveSet> active) const;
+    State combine(const Key& key, std::span<const Binding* const> live, Nanoseconds session_time);
 
     Instance& instance_;
-    mutable std::mutex mutex_;
-    bool attached_ = false, profile_changed_ = false;
+    const Devices& devices_;
+    mutable std::mutex mutex_;  // what follows
+    bool attached_ = false;
     std::vector<std::shared_ptr<ActionSet>> sets_;
+    std::map<std::string, std::vector<SuggestedBinding>> suggestions_;  // by interaction profile
+    Profiles profiles_;
     std::vector<Binding> bindings_;
-    std::map<std::string, const InteractionProfile*, std::less<>> current_;  // by user path
+    std::map<Key, const InputSource*> pose_sources_;  // a pose stays with the device that it came from first
     std::map<Key, State> states_;
 };
 

@@ -21,16 +21,28 @@ Script make_script(const Options& options) {
 
 }  // namespace
 
-std::span<const Extension> supported_extensions() {
-    static constexpr Extension extensions[] = {
+std::vector<Extension> supported_extensions() {
+    std::vector<Extension> extensions{
         {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, XR_KHR_vulkan_enable2_SPEC_VERSION},
         {XR_KHR_VULKAN_ENABLE_EXTENSION_NAME, XR_KHR_vulkan_enable_SPEC_VERSION},
         {XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_KHR_composition_layer_depth_SPEC_VERSION},
+        {XR_KHR_COMPOSITION_LAYER_CYLINDER_EXTENSION_NAME, XR_KHR_composition_layer_cylinder_SPEC_VERSION},
+        {XR_KHR_COMPOSITION_LAYER_EQUIRECT2_EXTENSION_NAME, XR_KHR_composition_layer_equirect2_SPEC_VERSION},
+        {XR_KHR_COMPOSITION_LAYER_COLOR_SCALE_BIAS_EXTENSION_NAME,
+         XR_KHR_composition_layer_color_scale_bias_SPEC_VERSION},
         {XR_KHR_VISIBILITY_MASK_EXTENSION_NAME, XR_KHR_visibility_mask_SPEC_VERSION},
+        {XR_EXT_CONFORMANCE_AUTOMATION_EXTENSION_NAME, XR_EXT_conformance_automation_SPEC_VERSION},
+        {XR_EXT_DEBUG_UTILS_EXTENSION_NAME, XR_EXT_debug_utils_SPEC_VERSION},
         {XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME, XR_EXT_eye_gaze_interaction_SPEC_VERSION},
+        {XR_EXT_HAND_TRACKING_EXTENSION_NAME, XR_EXT_hand_tracking_SPEC_VERSION},
+        {XR_MND_HEADLESS_EXTENSION_NAME, XR_MND_headless_SPEC_VERSION},
         {XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_quad_views_SPEC_VERSION},
         {XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME, XR_VARJO_foveated_rendering_SPEC_VERSION},
     };
+    if (time_mode() == TimeMode::Real) {
+        extensions.push_back(
+            {XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, XR_KHR_convert_timespec_time_SPEC_VERSION});
+    }
     return extensions;
 }
 
@@ -70,14 +82,6 @@ std::vector<XrEnvironmentBlendMode> Instance::blend_modes() const {
         }
     }
     return modes;
-}
-
-bool Instance::pop_event(XrEventDataBuffer& event) {
-    const std::lock_guard lock(events_mutex_);
-    if (events_.empty()) return false;
-    event = events_.front();
-    events_.pop_front();
-    return true;
 }
 
 void Instance::remember_vulkan(VkInstance instance, VulkanLoader loader) {

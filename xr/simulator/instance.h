@@ -1,8 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstring>
-#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +12,8 @@
 #include <openxr/openxr.h>
 #include <vulkan/vulkan.h>
 
+#include "xr/simulator/debug_utils.h"
+#include "xr/simulator/events.h"
 #include "xr/simulator/frame_clock.h"
 #include "xr/simulator/handles.h"
 #include "xr/simulator/options.h"
@@ -29,8 +29,8 @@ struct Extension {
     std::string_view name;
     std::uint32_t version;
 };
-/// All that the runtime offers.
-std::span<const Extension> supported_extensions();
+/// All that the runtime offers; it depends on FOVERAY_SIMULATOR_TIME.
+std::vector<Extension> supported_extensions();
 
 /// OpenXR 1.0 with the patch number of the headers.
 constexpr XrVersion supported_api_version = XR_MAKE_VERSION(1, 0, XR_VERSION_PATCH(XR_CURRENT_API_VERSION));
@@ -61,14 +61,8 @@ class Instance : public Object {
     std::vector<XrEnvironmentBlendMode> blend_modes() const;
     bool supports(XrViewConfigurationType type) const;
 
-    /// `event` is one of the XrEventData structures.
-    template <typename Event>
-    void push_event(const Event& event) {
-        static_assert(sizeof(Event) <= sizeof(XrEventDataBuffer));
-        const std::lock_guard lock(events_mutex_);
-        std::memcpy(&events_.emplace_back(), &event, sizeof event);
-    }
-    bool pop_event(XrEventDataBuffer& event);
+    EventQueue& events() { return events_; }
+    DebugUtils& debug() { return debug_; }
 
     /// The client made that Vulkan instance through the runtime.
     void remember_vulkan(VkInstance instance, VulkanLoader loader);
@@ -97,9 +91,8 @@ class Instance : public Object {
     FrameClock clock_;
     PathTable paths_;
 
-    std::mutex events_mutex_;
-    std::deque<XrEventDataBuffer> events_;
-
+    EventQueue events_;
+    DebugUtils debug_;
     std::atomic<bool> graphics_requirements_asked_ = false;
     mutable std::mutex mutex_;  // what follows
     std::map<VkInstance, VulkanLoader> vulkan_;

@@ -1,10 +1,9 @@
 #include <cstdio>
 #include <string>
 
-#include <openxr/openxr_reflection.h>
-
 #include "xr/simulator/functions.h"
 #include "xr/simulator/instance.h"
+#include "xr/simulator/names.h"
 
 namespace foveray::simulator {
 namespace {
@@ -18,23 +17,6 @@ void name_value(char* buffer, const char* known, const char* unknown_prefix, int
         std::snprintf(buffer, XR_MAX_RESULT_STRING_SIZE, "%s", known);
     } else {
         std::snprintf(buffer, XR_MAX_RESULT_STRING_SIZE, "%s%d", unknown_prefix, value);
-    }
-}
-
-const char* name_of(XrResult value) {
-    switch (value) {
-#define FOVERAY_CASE(name, number) \
-    case name:                     \
-        return #name;
-        XR_LIST_ENUM_XrResult(FOVERAY_CASE) default : return nullptr;
-    }
-}
-
-const char* name_of(XrStructureType value) {
-    switch (value) {
-        XR_LIST_ENUM_XrStructureType(FOVERAY_CASE)
-#undef FOVERAY_CASE
-            default : return nullptr;
     }
 }
 
@@ -96,8 +78,9 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateInstance(const XrInstanceCreateInfo* info
         verify(XR_VERSION_MAJOR(application.apiVersion) == XR_VERSION_MAJOR(supported_api_version) &&
                    XR_VERSION_MINOR(application.apiVersion) <= XR_VERSION_MINOR(supported_api_version),
                XR_ERROR_API_VERSION_UNSUPPORTED);
-        verify(!fixed_text(application.applicationName).empty(), XR_ERROR_NAME_INVALID);
-        fixed_text(application.engineName);
+        verify(!fixed_text(application.applicationName, XR_ERROR_NAME_INVALID).empty(),
+               XR_ERROR_NAME_INVALID);
+        fixed_text(application.engineName, XR_ERROR_NAME_INVALID);
         verify(info->enabledApiLayerCount == 0, XR_ERROR_API_LAYER_NOT_PRESENT);
         verify(info->enabledExtensionCount == 0 || info->enabledExtensionNames != nullptr);
         std::set<std::string, std::less<>> extensions;
@@ -131,7 +114,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrPollEvent(XrInstance instance, XrEventDataBuffe
     return guarded([&] {
         const auto object = get<Instance>(instance);
         verify_structure(event, XR_TYPE_EVENT_DATA_BUFFER);
-        return object->pop_event(*event) ? XR_SUCCESS : XR_EVENT_UNAVAILABLE;
+        return object->events().pop(*event) ? XR_SUCCESS : XR_EVENT_UNAVAILABLE;
     });
 }
 

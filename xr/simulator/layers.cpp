@@ -10,6 +10,9 @@
 namespace foveray::simulator {
 namespace {
 
+// Clients compute 2 pi in single precision.
+constexpr float full_turn = 2.0f * pi + 1e-5f;
+
 SubImage read_sub_image(const Session& session, const XrSwapchainSubImage& info) {
     SubImage image{get<Swapchain>(info.swapchain), info.imageRect, info.imageArrayIndex};
     const XrSwapchainCreateInfo& swapchain = image.swapchain->info();
@@ -20,12 +23,28 @@ SubImage read_sub_image(const Session& session, const XrSwapchainSubImage& info)
                std::int64_t{offset.x} + extent.width <= swapchain.width &&
                std::int64_t{offset.y} + extent.height <= swapchain.height,
            XR_ERROR_SWAPCHAIN_RECT_INVALID);
-    verify(image.array_index < swapchain.arraySize);
+    verify(image.array_index < swapchain.arraySize && swapchain.faceCount == 1);
     return image;
 }
 
-void verify_space(const Session& session, XrSpace space) {
-    verify(&get<Space>(space)->session() == &session);
+/// What all layers have.
+template <typename Layer>
+void verify_base(const Session& session, const Layer& layer) {
+    constexpr XrCompositionLayerFlags known = XR_COMPOSITION_LAYER_CORRECT_CHROMATIC_ABERRATION_BIT |
+                                              XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT |
+                                              XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
+    verify((layer.layerFlags & ~known) == 0);
+    verify(&get<Space>(layer.space)->session() == &session);
+}
+
+/// What layers with a picture of their own have: quads, cylinders, equirectangular ones.
+template <typename Layer>
+void verify_surface(const Session& session, const Layer& layer) {
+    verify_base(session, layer);
+    verify(layer.eyeVisibility >= XR_EYE_VISIBILITY_BOTH && layer.eyeVisibility <= XR_EYE_VISIBILITY_RIGHT);
+    verify(is_valid(layer.pose), XR_ERROR_POSE_INVALID);
+    verify(!is_depth_format(read_sub_image(session, layer.subImage).swapchain->format()),
+           XR_ERROR_LAYER_INVALID);
 }
 
 void verify_fov(const XrFovf& fov) {
@@ -38,12 +57,12 @@ void verify_fov(const XrFovf& fov) {
 void verify_depth(const Session& session, const XrCompositionLayerDepthInfoKHR& depth) {
     const SubImage image = read_sub_image(session, depth.subImage);
     verify(is_depth_format(image.swapchain->format()));
-    verify(depth.minDepth >= 0.0f && depth.minDepth < depth.maxDepth && depth.maxDepth <= 1.0f);
+    verify(depth.minDepth >= 0.0f && depth.minDepth <= depth.maxDepth && depth.maxDepth <= 1.0f);
     verify(depth.nearZ != depth.farZ && depth.nearZ >= 0.0f && depth.farZ >= 0.0f);
 }
 
 ProjectionLayer read_projection(const Session& session, const XrCompositionLayerProjection& layer) {
-    verify_space(session, layer.space);
+    verify_base(session, layer);
     verify(layer.viewCount == session.view_count() && layer.views != nullptr);
     ProjectionLayer result;
     result.flags = layer.layerFlags;
@@ -64,10 +83,25 @@ ProjectionLayer read_projection(const Session& session, const XrCompositionLayer
 }
 
 void verify_quad(const Session& session, const XrCompositionLayerQuad& layer) {
-    verify_space(session, layer.space);
-    verify(layer.eyeVisibility >= XR_EYE_VISIBILITY_BOTH && layer.eyeVisibility <= XR_EYE_VISIBILITY_RIGHT);
-    verify(is_valid(layer.pose), XR_ERROR_POSE_INVALID);
-    read_sub_image(session, layer.subImage);
+    verify_surface(session, layer);
+    verify(std::isfinite(layer.size.width) && std::isfinite(layer.size.height));
+}
+
+/// Zero and infinity put the surface at infinity.
+void verify_radius(float radius) { verify(radius >= 0.0f); }
+
+void verify_cylinder(const Session& session, const XrCompositionLayerCylinderKHR& layer) {
+    verify_surface(session, layer);
+    verify_radius(layer.radius);
+    verify(layer.centralAngle >= 0.0f && layer.centralAngle <= full_turn);
+    verify(std::isfinite(layer.aspectRatio) && layer.aspectRatio > 0.0f);
+}
+
+void verify_equirect(const Session& session, const XrCompositionLayerEquirect2KHR& layer) {
+    verify_surface(session, layer);
+    verify_radius(layer.radius);
+    verify(layer.centralHorizontalAngle >= 0.0f && layer.centralHorizontalAngle <= full_turn);
+    verify(std::isfinite(layer.upperVerticalAngle) && std::isfinite(layer.lowerVerticalAngle));
 }
 
 }  // namespace
@@ -86,6 +120,16 @@ std::vector<ProjectionLayer> read_layers(const Session& session, const XrFrameEn
                 break;
             case XR_TYPE_COMPOSITION_LAYER_QUAD:
                 verify_quad(session, *reinterpret_cast<const XrCompositionLayerQuad*>(layer));
+                break;
+            case XR_TYPE_COMPOSITION_LAYER_CYLINDER_KHR:
+                verify(session.instance().has(XR_KHR_COMPOSITION_LAYER_CYLINDER_EXTENSION_NAME),
+                       XR_ERROR_LAYER_INVALID);
+                verify_cylinder(session, *reinterpret_cast<const XrCompositionLayerCylinderKHR*>(layer));
+                break;
+            case XR_TYPE_COMPOSITION_LAYER_EQUIRECT2_KHR:
+                verify(session.instance().has(XR_KHR_COMPOSITION_LAYER_EQUIRECT2_EXTENSION_NAME),
+                       XR_ERROR_LAYER_INVALID);
+                verify_equirect(session, *reinterpret_cast<const XrCompositionLayerEquirect2KHR*>(layer));
                 break;
             default:
                 throw Refusal{XR_ERROR_LAYER_INVALID};

@@ -29,8 +29,8 @@ struct ProjectionLayer {
     std::vector<ProjectionView> views;  // in the order of the view configuration
 };
 
-/// Verifies all layers of a frame and gives its projection layers, the rearmost first. Quad layers are
-/// verified and not shown.
+/// Verifies all layers of a frame and gives its projection layers, the rearmost first. Quad, cylinder and
+/// equirectangular layers are verified and not shown.
 std::vector<ProjectionLayer> read_layers(const Session& session, const XrFrameEndInfo& info);
 
 }  // namespace foveray::simulator

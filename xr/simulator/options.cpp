@@ -34,16 +34,19 @@ void read_frames(const std::string& text, Options& options) {
 
 }  // namespace
 
+TimeMode time_mode() {
+    const std::string time = variable("FOVERAY_SIMULATOR_TIME");
+    if (time == "virtual") return TimeMode::Virtual;
+    if (time.empty() || time == "real") return TimeMode::Real;
+    throw_bad_input("FOVERAY_SIMULATOR_TIME=" + time, "is no kind of time", "use virtual or real");
+}
+
 Options read_options() {
     Options options;
     options.profile = variable("FOVERAY_SIMULATOR_PROFILE");
     options.session = variable("FOVERAY_SIMULATOR_SESSION");
     options.capture = variable("FOVERAY_SIMULATOR_CAPTURE");
-    if (const std::string time = variable("FOVERAY_SIMULATOR_TIME"); time == "virtual") {
-        options.time = TimeMode::Virtual;
-    } else if (!time.empty() && time != "real") {
-        throw_bad_input("FOVERAY_SIMULATOR_TIME=" + time, "is no kind of time", "use virtual or real");
-    }
+    options.time = time_mode();
     if (const std::string frames = variable("FOVERAY_SIMULATOR_CAPTURE_FRAMES"); !frames.empty()) {
         read_frames(frames, options);
     }

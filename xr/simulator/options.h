@@ -25,6 +25,7 @@ struct Options {
 };
 
 /// Throws Fault(BadInput) naming the variable.
+TimeMode time_mode();
 Options read_options();
 
 }  // namespace foveray::simulator

@@ -31,13 +31,13 @@ XrPath PathTable::atom(std::string_view text) {
     const auto found = atoms_.find(text);
     if (found != atoms_.end()) return found->second;
     texts_.emplace_back(text);
-    return atoms_[texts_.back()] = texts_.size();
+    return atoms_[texts_.back()] = last_invalid_atom + texts_.size();
 }
 
 std::string PathTable::text(XrPath path) const {
     const std::lock_guard lock(mutex_);
-    verify(path != XR_NULL_PATH && path <= texts_.size(), XR_ERROR_PATH_INVALID);
-    return texts_[path - 1];
+    verify(path > last_invalid_atom && path - last_invalid_atom <= texts_.size(), XR_ERROR_PATH_INVALID);
+    return texts_[path - last_invalid_atom - 1];
 }
 
 }  // namespace foveray::simulator

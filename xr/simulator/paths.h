@@ -19,8 +19,10 @@ class PathTable {
     std::string text(XrPath path) const;
 
   private:
+    static constexpr XrPath last_invalid_atom = 0x7a00'0000'0000;  // far from what a client might make up
+
     mutable std::mutex mutex_;
-    std::vector<std::string> texts_;  // index + 1 is the atom
+    std::vector<std::string> texts_;  // by atom - last_invalid_atom - 1
     std::map<std::string, XrPath, std::less<>> atoms_;
 };
 

@@ -32,7 +32,10 @@ std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
 Script::Script(HeadsetProfile profile) : profile_(std::move(profile)) {}
 
 Script::Script(HeadsetProfile profile, foveray::Session session)
-    : profile_(std::move(profile)), session_(std::move(session)), has_session_(true) {
+    : profile_(std::move(profile)),
+      session_(std::move(session)),
+      hands_(session_.folder),
+      has_session_(true) {
     std::set<std::string> unknown;
     for (const foveray::Session::Event& event : session_.events) {
         if (const auto kind = event_kind(event.name)) {
@@ -77,6 +80,20 @@ std::optional<GazeSample> Script::rendering_gaze_at(Nanoseconds time) const {
                                     [](const GazeSample& s) { return s.valid; });
     if (found == samples.rend()) return std::nullopt;
     return *found;
+}
+
+std::optional<HandJoints> Script::hand_at(int hand, Nanoseconds time) const {
+    if (!hands_.empty()) {
+        const HandJoints* joints = hands_.at(hand, time);
+        return joints ? std::optional(*joints) : std::nullopt;
+    }
+    const ControllerState controller = controller_at(hand, time);
+    if (!controller.valid) return std::nullopt;
+    return hand_round_controller(hand, controller);
+}
+
+bool Script::has_controller(int hand) const {
+    return std::ranges::any_of(session_.controllers, [&](const auto& sample) { return sample.hand == hand; });
 }
 
 ControllerState Script::controller_at(int hand, Nanoseconds time) const {

@@ -6,6 +6,7 @@
 
 #include "base/headset_profile.h"
 #include "base/session.h"
+#include "xr/simulator/hands.h"
 
 namespace foveray::simulator {
 
@@ -36,7 +37,12 @@ class Script {
     GazeSample gaze_at(Nanoseconds time) const;
     /// Where gaze-contingent views look: the last valid gaze, held through blinks; nothing before any.
     std::optional<GazeSample> rendering_gaze_at(Nanoseconds time) const;
+    /// The script has that controller at any time.
+    bool has_controller(int hand) const;
     ControllerState controller_at(int hand, Nanoseconds time) const;
+
+    /// The stream hands.csv, or without it hands round the controllers; nothing while the hand is not seen.
+    std::optional<HandJoints> hand_at(int hand, Nanoseconds time) const;
 
     Presence presence_at(Nanoseconds time) const;
     bool exit_asked_at(Nanoseconds time) const;
@@ -72,6 +78,7 @@ class Script {
 
     HeadsetProfile profile_;
     foveray::Session session_;
+    HandStream hands_;
     bool has_session_ = false;
     std::vector<Event> events_;  // by time
 };

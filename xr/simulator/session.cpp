@@ -11,15 +11,17 @@ namespace foveray::simulator {
 Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device)
     : instance_(std::move(instance)),
       device_(std::move(device)),
-      inputs_(*instance_),
-      capture_(instance_->options(), instance_->profile(), *device_),
+      devices_(*instance_),
+      inputs_(*instance_, devices_),
       lifecycle_([this](XrSessionState state) { announce(state); }) {
+    if (device_) capture_.emplace(instance_->options(), instance_->profile(), *device_);
     verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
 }
 
 void Session::on_destroy() {
     const std::lock_guard lock(mutex_);
     destroyed_ = true;
+    instance_->events().forget(handle_of(*this));
     instance_->release_session();
     frame_taken_.notify_all();
 }
@@ -40,8 +42,9 @@ bool Session::focused() const {
 }
 
 void Session::announce(XrSessionState state) {
-    instance_->push_event(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
-                                                         handle_of(*this), state, instance_->clock().now()});
+    instance_->events().push(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
+                                                            handle_of(*this), state,
+                                                            instance_->clock().now()});
 }
 
 void Session::begin(XrViewConfigurationType configuration) {
@@ -51,6 +54,13 @@ void Session::begin(XrViewConfigurationType configuration) {
     view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
     waited_.reset();
     begun_.reset();
+    has_frames_ = false;
+    if (headless()) play_script(instance_->clock().tick());
+}
+
+void Session::play_without_frames() {
+    const std::lock_guard lock(mutex_);
+    if (headless() && lifecycle_.running() && !has_frames_) play_script(instance_->clock().tick());
 }
 
 void Session::end() {
@@ -69,7 +79,7 @@ void Session::change_visibility_mask(bool has_mask) {
     if (has_visibility_mask_.exchange(has_mask) == has_mask) return;
     if (!instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) return;
     for (std::uint32_t view = 0; view < view_count_; ++view) {
-        instance_->push_event(XrEventDataVisibilityMaskChangedKHR{
+        instance_->events().push(XrEventDataVisibilityMaskChangedKHR{
             XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR, nullptr, handle_of(*this), configuration_, view});
     }
 }
@@ -80,7 +90,7 @@ void Session::play_script(const FrameTime& frame) {
     for (const Nanoseconds recentred : script.recentrings(played_until_, time)) {
         const Pose previous = script.stage_from_local_at(recentred - 1);
         const Pose next = script.stage_from_local_at(recentred);
-        instance_->push_event(XrEventDataReferenceSpaceChangePending{
+        instance_->events().push(XrEventDataReferenceSpaceChangePending{
             XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this),
             XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
             to_xr(inverse(previous) * next)});
@@ -88,6 +98,7 @@ void Session::play_script(const FrameTime& frame) {
     played_until_ = time;
     change_visibility_mask(script.has_visibility_mask_at(time));
     if (script.session_lost_at(time)) lifecycle_.lose();
+    if (!lifecycle_.running()) return;
     if (script.ended(frame.index) || script.exit_asked_at(time)) {
         lifecycle_.ask_to_stop();
     } else {
@@ -107,6 +118,7 @@ Session::WaitedFrame Session::wait_frame() {
     verify_running();
 
     waiting_ = true;
+    has_frames_ = true;
     lock.unlock();
     const FrameTime frame = instance_->clock().next_frame();
     lock.lock();
@@ -115,7 +127,7 @@ Session::WaitedFrame Session::wait_frame() {
     verify_running();
     waited_ = frame;
     play_script(frame);
-    return {frame, lifecycle_.visible()};
+    return {frame, lifecycle_.visible() && !headless()};
 }
 
 XrResult Session::begin_frame() {
@@ -138,7 +150,8 @@ void Session::end_frame(const XrFrameEndInfo& info) {
 
     const std::vector<ProjectionLayer> layers = read_layers(*this, info);
     const Script& script = instance_->script();
-    if (capture_.wants(frame.index) && !script.ended(frame.index)) capture_.write(frame.index, layers);
+    if (capture_ && capture_->wants(frame.index) && !script.ended(frame.index))
+        capture_->write(frame.index, layers);
 
     lock.lock();
     begun_.reset();

@@ -10,6 +10,7 @@
 #include <openxr/openxr.h>
 
 #include "xr/simulator/capture.h"
+#include "xr/simulator/devices.h"
 #include "xr/simulator/handles.h"
 #include "xr/simulator/inputs.h"
 #include "xr/simulator/instance.h"
@@ -23,16 +24,22 @@ class Session : public Object {
     using Handle = XrSession;
     static constexpr XrObjectType object_type = XR_OBJECT_TYPE_SESSION;
 
-    /// Refuses with XR_ERROR_LIMIT_REACHED while the instance has another.
+    /// Without a device it is headless. Refuses with XR_ERROR_LIMIT_REACHED while the instance has another.
     Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device);
     void on_destroy() override;
     /// Announces IDLE and READY; once, after the handle exists.
     void start();
 
     Instance& instance() const { return *instance_; }
+    bool headless() const { return !device_; }
+    /// Not of headless sessions.
     VulkanDevice& device() const { return *device_; }
+    DebugLabels& labels() { return labels_; }
+    const DebugLabels& labels() const { return labels_; }
     Inputs& inputs() { return inputs_; }
     const Inputs& inputs() const { return inputs_; }
+    Devices& devices() { return devices_; }
+    const Devices& devices() const { return devices_; }
     bool running() const;
     bool focused() const;
     /// Views of the configuration that the session was begun with.
@@ -50,6 +57,8 @@ class Session : public Object {
     };
     /// Blocks until the frame before was begun. Plays the script up to the new frame.
     WaitedFrame wait_frame();
+    /// Plays the script up to now in a running headless session whose client waits for no frames.
+    void play_without_frames();
     /// XR_SUCCESS, or XR_FRAME_DISCARDED when a begun frame was not ended.
     XrResult begin_frame();
     void end_frame(const XrFrameEndInfo& info);
@@ -61,8 +70,10 @@ class Session : public Object {
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
+    DebugLabels labels_;
+    Devices devices_;
     Inputs inputs_;
-    Capture capture_;
+    std::optional<Capture> capture_;
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;
@@ -71,7 +82,7 @@ class Session : public Object {
     std::condition_variable frame_taken_;
     Lifecycle lifecycle_;
     XrViewConfigurationType configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
-    bool destroyed_ = false, waiting_ = false;
+    bool destroyed_ = false, waiting_ = false, has_frames_ = false;
     std::optional<FrameTime> waited_, begun_;
     Nanoseconds played_until_ = -1;  // session time
 };

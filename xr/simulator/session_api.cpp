@@ -9,7 +9,14 @@
 namespace foveray::simulator {
 namespace {
 
-std::unique_ptr<VulkanDevice> take_device(Instance& instance, const XrGraphicsBindingVulkanKHR& binding) {
+/// nullptr for a headless session.
+std::unique_ptr<VulkanDevice> take_device(Instance& instance, const void* next) {
+    const auto* found = find_input<XrGraphicsBindingVulkanKHR>(next, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR);
+    if (!found && instance.has(XR_MND_HEADLESS_EXTENSION_NAME)) return nullptr;
+    verify(found && (instance.has(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME) ||
+                     instance.has(XR_KHR_VULKAN_ENABLE_EXTENSION_NAME)),
+           XR_ERROR_GRAPHICS_DEVICE_INVALID);
+    const XrGraphicsBindingVulkanKHR& binding = *found;
     verify(instance.were_graphics_requirements_asked(), XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING);
     verify(binding.instance && binding.physicalDevice && binding.device, XR_ERROR_GRAPHICS_DEVICE_INVALID);
     verify(instance.gpu(binding.instance) == binding.physicalDevice, XR_ERROR_GRAPHICS_DEVICE_INVALID);
@@ -27,10 +34,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateSession(XrInstance instance, const XrSess
         verify_structure(info, XR_TYPE_SESSION_CREATE_INFO);
         verify(session != nullptr && info->createFlags == 0);
         get_system(instance, info->systemId);
-        const auto* binding =
-            find_input<XrGraphicsBindingVulkanKHR>(info->next, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR);
-        verify(binding != nullptr, XR_ERROR_GRAPHICS_DEVICE_INVALID);
-        const auto made = std::make_shared<Session>(object, take_device(*object, *binding));
+        const auto made = std::make_shared<Session>(object, take_device(*object, info->next));
         *session = add_object(made, object->id());
         made->start();
     });
@@ -44,9 +48,10 @@ XRAPI_ATTR XrResult XRAPI_CALL xrBeginSession(XrSession session, const XrSession
     return guarded([&] {
         const auto object = get<Session>(session);
         verify_structure(info, XR_TYPE_SESSION_BEGIN_INFO);
-        verify(object->instance().supports(info->primaryViewConfigurationType),
-               XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
-        object->begin(info->primaryViewConfigurationType);
+        const bool supported = object->instance().supports(info->primaryViewConfigurationType);
+        verify(supported || object->headless(), XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
+        object->begin(supported ? info->primaryViewConfigurationType
+                                : XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
     });
 }
 
@@ -111,7 +116,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrLocateViews(XrSession session, const XrViewLoca
         const auto profiles = views_of(profile, info->viewConfigurationType);
         const auto* foveated = find_input<XrViewLocateFoveatedRenderingVARJO>(
             info->next, XR_TYPE_VIEW_LOCATE_FOVEATED_RENDERING_VARJO);
-        const bool follows_gaze = foveated && foveated->foveatedRenderingActive;
+        const bool follows_gaze = foveated && foveated->foveatedRenderingActive &&
+                                  instance.has(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME);
         const auto gaze =
             instance.script().rendering_gaze_at(instance.clock().session_time(info->displayTime));
         const vec3 direction = gaze ? gaze->direction : vec3(0.0f, 0.0f, -1.0f);

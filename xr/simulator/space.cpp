@@ -2,31 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "xr/simulator/input_sources.h"
 #include "xr/simulator/session.h"
 
 namespace foveray::simulator {
 namespace {
-
-constexpr XrSpaceLocationFlags valid_flags =
-    XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
-constexpr XrSpaceLocationFlags all_flags =
-    valid_flags | XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-
-/// The rotation with the least roll that turns -z to `direction`.
-quat look_along(vec3 direction) {
-    const vec3 up = std::abs(direction.y) > 0.999f ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.0f, 1.0f, 0.0f);
-    return glm::quatLookAt(direction, up);
-}
-
-Placement place_gaze(const GazeSample& gaze, const FrameClock& clock) {
-    if (!gaze.valid) return {Placement::Carrier::Head, {}, 0, 0};
-    return {Placement::Carrier::Head,
-            {look_along(gaze.direction), gaze.origin},
-            all_flags,
-            clock.time_of(gaze.time)};
-}
 
 /// Both as seen from the stage, where the carriers differ.
 Placement on_stage(const Placement& placement, const Script::Head& head) {
@@ -45,25 +26,19 @@ Placement Space::place_origin(XrTime time) const {
     if (const auto* reference = std::get_if<XrReferenceSpaceType>(&origin_)) {
         switch (*reference) {
             case XR_REFERENCE_SPACE_TYPE_VIEW:
-                return {Carrier::Head, {}, all_flags, 0};
+                return {Carrier::Head, {}, all_location_flags, 0};
             case XR_REFERENCE_SPACE_TYPE_LOCAL:
-                return {Carrier::Stage, script.stage_from_local_at(clock.session_time(time)), all_flags, 0};
+                return {Carrier::Stage, script.stage_from_local_at(clock.session_time(time)),
+                        all_location_flags, 0};
             case XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO:
-                return place_gaze(script.rendering_gaze_at(clock.session_time(time)).value_or(GazeSample{}),
-                                  clock);
+                return session_->devices().place_rendering_gaze(time);
             default:
-                return {Carrier::Stage, {}, all_flags, 0};
+                return {Carrier::Stage, {}, all_location_flags, 0};
         }
     }
     const auto& action = std::get<ActionSource>(origin_);
     const InputSource* source = session_->inputs().state(*action.action, action.subaction_path).source;
-    if (!source) return {};
-    const auto hand = hand_of(source->user);
-    if (!hand) return place_gaze(script.gaze_at(clock.session_time(time)), clock);
-    const ControllerState state = script.controller_at(*hand, clock.session_time(time));
-    const bool aim = source->component == "/input/aim/pose";
-    return {Carrier::Stage, aim ? state.stage_from_aim : state.stage_from_grip, state.valid ? all_flags : 0,
-            0};
+    return source ? session_->devices().place(*source, time) : Placement{};
 }
 
 Placement Space::place(XrTime time) const {
@@ -88,21 +63,41 @@ SpaceLocation locate(const Space& space, const Space& base, XrTime time) {
     return location;
 }
 
-Velocity velocity(const Space& space, const Space& base, XrTime time) {
+SpaceLocation locate_stage(const Space& base, XrTime time) {
+    Instance& instance = base.session().instance();
+    const Placement b =
+        on_stage(base.place(time), instance.script().head_at(instance.clock().session_time(time)));
+    return {inverse(b.carrier_from_space), b.flags, 0};
+}
+
+XrSpaceVelocityFlags velocity_flags(const Velocity& velocity) {
+    return velocity.valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT | XR_SPACE_VELOCITY_ANGULAR_VALID_BIT : 0;
+}
+
+TimeSpan span_round(XrTime time) {
     constexpr Nanoseconds step = 5 * nanoseconds_per_millisecond;
-    const Nanoseconds before_time = std::max<XrTime>(time - step, 1);
-    const SpaceLocation before = locate(space, base, before_time), after = locate(space, base, time + step);
-    if (!(before.flags & after.flags)) return {};
-    const auto seconds = static_cast<float>(to_seconds(time + step - before_time));
-    quat turn = after.base_from_space.orientation * glm::conjugate(before.base_from_space.orientation);
+    return {std::max<XrTime>(time - step, 1),
+            std::min(time, std::numeric_limits<XrTime>::max() - step) + step};
+}
+
+Velocity velocity_between(const Pose& before, const Pose& after, TimeSpan span) {
+    const auto seconds = static_cast<float>(to_seconds(span.end - span.begin));
+    quat turn = after.orientation * glm::conjugate(before.orientation);
     if (turn.w < 0.0f) turn = -turn;
     const vec3 axis(turn.x, turn.y, turn.z);
     const float sine = glm::length(axis);
     Velocity result;
     result.valid = true;
-    result.linear = (after.base_from_space.position - before.base_from_space.position) / seconds;
+    result.linear = (after.position - before.position) / seconds;
     if (sine > 1e-7f) result.angular = axis / sine * (2.0f * std::atan2(sine, turn.w) / seconds);
     return result;
+}
+
+Velocity velocity(const Space& space, const Space& base, XrTime time) {
+    const TimeSpan span = span_round(time);
+    const SpaceLocation before = locate(space, base, span.begin), after = locate(space, base, span.end);
+    if (!(before.flags & after.flags)) return {};
+    return velocity_between(before.base_from_space, after.base_from_space, span);
 }
 
 HeadLocation locate_head(const Space& base, XrTime time) {

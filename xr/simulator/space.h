@@ -8,18 +8,11 @@
 #include "base/math.h"
 #include "xr/simulator/actions.h"
 #include "xr/simulator/handles.h"
+#include "xr/simulator/placement.h"
 
 namespace foveray::simulator {
 
 class Session;
-
-/// Where something is at a time, relative to what carries it.
-struct Placement {
-    enum class Carrier { Stage, Head } carrier = Carrier::Stage;
-    Pose carrier_from_space;
-    XrSpaceLocationFlags flags = 0;
-    XrTime sample_time = 0;  // of gaze: when the tracker measured it; 0 when invalid
-};
 
 class Space : public Object {
   public:
@@ -54,12 +47,21 @@ struct SpaceLocation {
 
 SpaceLocation locate(const Space& space, const Space& base, XrTime time);
 
+/// Of the stage; base_from_space is base_from_stage.
+SpaceLocation locate_stage(const Space& base, XrTime time);
+
 struct Velocity {
     vec3 linear{0.0f}, angular{0.0f};  // in the base's axes, metres and radians a second
     bool valid = false;
 };
+XrSpaceVelocityFlags velocity_flags(const Velocity& velocity);
 
-/// From the locations some milliseconds before and after.
+/// Some milliseconds before and after a time, between which velocities are measured.
+struct TimeSpan {
+    XrTime begin, end;
+};
+TimeSpan span_round(XrTime time);
+Velocity velocity_between(const Pose& before, const Pose& after, TimeSpan span);
 Velocity velocity(const Space& space, const Space& base, XrTime time);
 
 /// base_from_head with the flags of an XrViewState.

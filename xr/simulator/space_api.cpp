@@ -90,13 +90,12 @@ XRAPI_ATTR XrResult XRAPI_CALL xrLocateSpace(XrSpace space, XrSpace base, XrTime
         location->pose = to_xr(found.base_from_space);
         if (auto* out = find_output<XrSpaceVelocity>(location->next, XR_TYPE_SPACE_VELOCITY)) {
             const Velocity moving = velocity(*object, *base_object, time);
-            out->velocityFlags =
-                moving.valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT | XR_SPACE_VELOCITY_ANGULAR_VALID_BIT : 0;
+            out->velocityFlags = velocity_flags(moving);
             out->linearVelocity = to_xr(moving.linear);
             out->angularVelocity = to_xr(moving.angular);
         }
-        if (auto* out =
-                find_output<XrEyeGazeSampleTimeEXT>(location->next, XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT)) {
+        if (auto* out = find_output<XrEyeGazeSampleTimeEXT>(location->next, XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT);
+            out && object->session().instance().has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)) {
             out->time = found.sample_time;
         }
     });

@@ -1,4 +1,6 @@
 
+#include <bit>
+
 #include "xr/simulator/functions.h"
 #include "xr/simulator/limits.h"
 #include "xr/simulator/openxr_vulkan.h"
@@ -19,8 +21,9 @@ constexpr XrSwapchainUsageFlags known_usages =
 XRAPI_ATTR XrResult XRAPI_CALL xrEnumerateSwapchainFormats(XrSession session, std::uint32_t capacity,
                                                            std::uint32_t* count, std::int64_t* formats) {
     return guarded([&] {
-        get<Session>(session);
-        enumerate_values(swapchain_formats(), capacity, count, formats);
+        const bool headless = get<Session>(session)->headless();
+        enumerate_values(headless ? std::span<const std::int64_t>() : swapchain_formats(), capacity, count,
+                         formats);
     });
 }
 
@@ -35,14 +38,17 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateSwapchain(XrSession session, const XrSwap
         verify((info->createFlags & ~known_flags) == 0 && (info->usageFlags & ~known_usages) == 0);
         verify((info->createFlags & XR_SWAPCHAIN_CREATE_PROTECTED_CONTENT_BIT) == 0,
                XR_ERROR_FEATURE_UNSUPPORTED);
-        verify(std::ranges::find(swapchain_formats(), info->format) != swapchain_formats().end(),
+        verify(!object->headless() &&
+                   std::ranges::find(swapchain_formats(), info->format) != swapchain_formats().end(),
                XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
         verify(info->width > 0 && info->height > 0 && info->sampleCount > 0 && info->arraySize > 0 &&
                info->mipCount > 0 && (info->faceCount == 1 || info->faceCount == 6));
         verify(info->faceCount == 1 || info->width == info->height);
-        verify(
-            info->width <= max_swapchain_size && info->height <= max_swapchain_size && info->sampleCount == 1,
-            XR_ERROR_FEATURE_UNSUPPORTED);
+        verify(info->mipCount <=
+               static_cast<std::uint32_t>(std::bit_width(std::max(info->width, info->height))));
+        verify(info->width <= max_swapchain_size && info->height <= max_swapchain_size &&
+                   info->sampleCount == 1 && info->arraySize <= max_array_size,
+               XR_ERROR_FEATURE_UNSUPPORTED);
         *swapchain = add_object(std::make_shared<Swapchain>(object, *info), object->id());
     });
 }

@@ -20,8 +20,6 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetSystem(XrInstance instance, const XrSystemGe
         get<Instance>(instance);
         verify_structure(info, XR_TYPE_SYSTEM_GET_INFO);
         verify(system != nullptr);
-        verify(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY ||
-               info->formFactor == XR_FORM_FACTOR_HANDHELD_DISPLAY);
         verify(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, XR_ERROR_FORM_FACTOR_UNSUPPORTED);
         *system = Instance::system_id;
     });
@@ -38,12 +36,20 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetSystemProperties(XrInstance instance, XrSyst
         copy_text(properties->systemName, profile.display_name);
         properties->graphicsProperties = {max_swapchain_size, max_swapchain_size, max_layers};
         properties->trackingProperties = {XR_TRUE, XR_TRUE};
+        // Structures of extensions that the client did not enable are ignored.
         if (auto* gaze = find_output<XrSystemEyeGazeInteractionPropertiesEXT>(
-                properties->next, XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT)) {
+                properties->next, XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT);
+            gaze && object->has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)) {
             gaze->supportsEyeGazeInteraction = profile.eye_tracking;
         }
+        if (auto* hands = find_output<XrSystemHandTrackingPropertiesEXT>(
+                properties->next, XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT);
+            hands && object->has(XR_EXT_HAND_TRACKING_EXTENSION_NAME)) {
+            hands->supportsHandTracking = XR_TRUE;
+        }
         if (auto* foveated = find_output<XrSystemFoveatedRenderingPropertiesVARJO>(
-                properties->next, XR_TYPE_SYSTEM_FOVEATED_RENDERING_PROPERTIES_VARJO)) {
+                properties->next, XR_TYPE_SYSTEM_FOVEATED_RENDERING_PROPERTIES_VARJO);
+            foveated && object->has(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME)) {
             foveated->supportsFoveatedRendering = profile.eye_tracking && profile.views.size() == 4;
         }
     });
@@ -94,12 +100,13 @@ XRAPI_ATTR XrResult XRAPI_CALL xrEnumerateViewConfigurationViews(XrInstance inst
             uvec2 size = profiles[i].size;
             const auto* foveated = find_output<XrFoveatedViewConfigurationViewVARJO>(
                 view.next, XR_TYPE_FOVEATED_VIEW_CONFIGURATION_VIEW_VARJO);
-            if (foveated && foveated->foveatedRenderingActive)
+            if (foveated && foveated->foveatedRenderingActive &&
+                object->has(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME))
                 size = foveated_size(object->profile(), profiles[i]);
             view.recommendedImageRectWidth = size.x;
             view.recommendedImageRectHeight = size.y;
-            view.maxImageRectWidth = max_swapchain_size;
-            view.maxImageRectHeight = max_swapchain_size;
+            view.maxImageRectWidth = max_view_size;
+            view.maxImageRectHeight = max_view_size;
             view.recommendedSwapchainSampleCount = 1;
             view.maxSwapchainSampleCount = 1;
         };

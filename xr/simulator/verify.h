@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <source_location>
 #include <span>
 #include <string_view>
 
@@ -25,9 +26,15 @@ void report(std::string_view message);
 /// The result that stands for the exception being handled.
 XrResult result_of_current_exception();
 
+/// The object that the running call of this thread looked up last; 0 before any.
+inline thread_local std::uint64_t object_of_call = 0;
+/// Tells the debug messengers of that object's instance. `signature` is the entry point's.
+void tell_refusal(const char* signature, XrResult result) noexcept;
+
 /// Runs the body of an entry point. The body returns nothing for XR_SUCCESS, or an XrResult.
 template <typename Body>
-XrResult guarded(Body&& body) noexcept {
+XrResult guarded(Body&& body, std::source_location entry = std::source_location::current()) noexcept {
+    object_of_call = 0;
     try {
         if constexpr (std::is_void_v<decltype(body())>) {
             body();
@@ -36,7 +43,9 @@ XrResult guarded(Body&& body) noexcept {
             return body();
         }
     } catch (...) {
-        return result_of_current_exception();
+        const XrResult result = result_of_current_exception();
+        tell_refusal(entry.function_name(), result);
+        return result;
     }
 }
 
@@ -95,11 +104,11 @@ void copy_text(char (&target)[Size], std::string_view text) {
     target[length] = '\0';
 }
 
-/// The text of a fixed array that must hold a terminating zero.
+/// The text of a fixed array that must hold a terminating zero; refuses with `otherwise`.
 template <std::size_t Size>
-std::string_view fixed_text(const char (&array)[Size]) {
+std::string_view fixed_text(const char (&array)[Size], XrResult otherwise) {
     const char* const end = std::find(array, array + Size, '\0');
-    verify(end != array + Size);
+    verify(end != array + Size, otherwise);
     return {array, static_cast<std::size_t>(end - array)};
 }
 

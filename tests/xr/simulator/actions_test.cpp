@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "tests/fakes/temporary_folder.h"
-#include "tests/xr/simulator/simulator_client.h"
+#include "tests/xr/simulator/action_client.h"
 
 namespace foveray::simulator_tests {
 namespace {
@@ -22,58 +22,24 @@ class Actions : public testing::Test {
         script.controllers.push_back({from_seconds(1 / 30.0), 1, state});
         write_session(folder_.path() / "s", script);
         set_environment({{"SESSION", folder_.path() / "s"}, {"PROFILE", "ci-stereo"}});
-        client_ = std::make_unique<SimulatorClient>();
-        client_->create_session();
-        const XrActionSetCreateInfo info{XR_TYPE_ACTION_SET_CREATE_INFO, nullptr, "set", "Set", 0};
-        EXPECT_EQ(xrCreateActionSet(client_->instance, &info, &set_), XR_SUCCESS);
-        hands_ = {client_->path("/user/hand/left"), client_->path("/user/hand/right")};
+        auto client = std::make_unique<SimulatorClient>();
+        client->create_session();
+        actions_ = std::make_unique<ActionClient>(std::move(client));
+        set_ = actions_->create_set("set");
+        hands_ = actions_->hands;
+        client_ = actions_->client.get();
     }
 
-    XrAction create(const char* name, XrActionType type) {
-        XrActionCreateInfo info{};
-        info.type = XR_TYPE_ACTION_CREATE_INFO;
-        std::strcpy(info.actionName, name);
-        std::strcpy(info.localizedActionName, name);
-        info.actionType = type;
-        info.countSubactionPaths = 2;
-        info.subactionPaths = hands_.data();
-        XrAction action = XR_NULL_HANDLE;
-        EXPECT_EQ(xrCreateAction(set_, &info, &action), XR_SUCCESS) << name;
-        return action;
-    }
-
+    XrAction create(const char* name, XrActionType type) { return actions_->create(set_, name, type); }
     XrResult suggest(const std::string& profile, const std::vector<std::pair<XrAction, std::string>>& list) {
-        std::vector<XrActionSuggestedBinding> bindings;
-        for (const auto& [action, path] : list) bindings.push_back({action, client_->path(path)});
-        const XrInteractionProfileSuggestedBinding info{
-            XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING, nullptr,
-            client_->path("/interaction_profiles/" + profile), static_cast<std::uint32_t>(bindings.size()),
-            bindings.data()};
-        return xrSuggestInteractionProfileBindings(client_->instance, &info);
+        return actions_->suggest(profile, list);
     }
-
-    XrResult attach() {
-        const XrSessionActionSetsAttachInfo info{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO, nullptr, 1, &set_};
-        return xrAttachSessionActionSets(client_->session, &info);
-    }
-
-    XrResult sync() {
-        const XrActiveActionSet active{set_, XR_NULL_PATH};
-        const XrActionsSyncInfo info{XR_TYPE_ACTIONS_SYNC_INFO, nullptr, 1, &active};
-        return xrSyncActions(client_->session, &info);
-    }
-
-    template <typename State, typename Get>
-    State read(Get get, XrStructureType type, XrAction action, XrPath subaction = XR_NULL_PATH) {
-        const XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO, nullptr, action, subaction};
-        State state{};
-        state.type = type;
-        EXPECT_EQ(get(client_->session, &info, &state), XR_SUCCESS);
-        return state;
-    }
+    XrResult attach() { return actions_->attach({set_}); }
+    XrResult sync() { return actions_->sync({{set_, XR_NULL_PATH}}); }
 
     fakes::TemporaryFolder folder_;
-    std::unique_ptr<SimulatorClient> client_;
+    std::unique_ptr<ActionClient> actions_;
+    SimulatorClient* client_ = nullptr;
     XrActionSet set_ = XR_NULL_HANDLE;
     std::array<XrPath, 2> hands_{};
 };
@@ -102,30 +68,25 @@ TEST_F(Actions, ReadTheScriptedController) {
     ASSERT_EQ(client_->other_events.size(), 1u);
     EXPECT_EQ(client_->other_events[0].type, XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED);
 
-    const auto floats = XR_TYPE_ACTION_STATE_FLOAT;
-    EXPECT_FALSE(read<XrActionStateFloat>(xrGetActionStateFloat, floats, pull, hands_[0]).isActive);
-    EXPECT_EQ(read<XrActionStateFloat>(xrGetActionStateFloat, floats, pull, hands_[1]).currentState, 0.0f);
+    EXPECT_FALSE(actions_->read_float(pull, hands_[0]).isActive);
+    EXPECT_EQ(actions_->read_float(pull, hands_[1]).currentState, 0.0f);
 
     client_->empty_frame();
     ASSERT_XR_SUCCESS(sync());
-    const auto pulled = read<XrActionStateFloat>(xrGetActionStateFloat, floats, pull);
+    const auto pulled = actions_->read_float(pull);
     EXPECT_TRUE(pulled.isActive);
     EXPECT_TRUE(pulled.changedSinceLastSync);
     EXPECT_GT(pulled.lastChangeTime, 0);
     EXPECT_FLOAT_EQ(pulled.currentState, 0.75f);
-    const auto booleans = XR_TYPE_ACTION_STATE_BOOLEAN;
-    EXPECT_TRUE(read<XrActionStateBoolean>(xrGetActionStateBoolean, booleans, fire).currentState);
-    EXPECT_TRUE(read<XrActionStateBoolean>(xrGetActionStateBoolean, booleans, button).currentState);
-    const auto moved =
-        read<XrActionStateVector2f>(xrGetActionStateVector2f, XR_TYPE_ACTION_STATE_VECTOR2F, move)
-            .currentState;
+    EXPECT_TRUE(actions_->read_boolean(fire).currentState);
+    EXPECT_TRUE(actions_->read_boolean(button).currentState);
+    const auto moved = actions_->read_vector(move).currentState;
     EXPECT_FLOAT_EQ(moved.x, -0.5f);
     EXPECT_FLOAT_EQ(moved.y, 0.25f);
     ASSERT_XR_SUCCESS(sync());
-    EXPECT_FALSE(read<XrActionStateFloat>(xrGetActionStateFloat, floats, pull).changedSinceLastSync);
+    EXPECT_FALSE(actions_->read_float(pull).changedSinceLastSync);
 
-    EXPECT_TRUE(
-        read<XrActionStatePose>(xrGetActionStatePose, XR_TYPE_ACTION_STATE_POSE, hand, hands_[1]).isActive);
+    EXPECT_TRUE(actions_->is_pose_active(hand, hands_[1]));
     const XrActionSpaceCreateInfo space_info{
         XR_TYPE_ACTION_SPACE_CREATE_INFO, nullptr, hand, hands_[1], {{0, 0, 0, 1}, {0, 0, 0}}};
     XrSpace grip = XR_NULL_HANDLE;
@@ -152,6 +113,13 @@ TEST_F(Actions, SourcesAndProfilesHaveNames) {
     EXPECT_EQ(xrGetCurrentInteractionProfile(client_->session, hands_[1], &profile),
               XR_ERROR_ACTIONSET_NOT_ATTACHED);
     ASSERT_XR_SUCCESS(attach());
+    ASSERT_XR_SUCCESS(xrGetCurrentInteractionProfile(client_->session, hands_[1], &profile));
+    EXPECT_EQ(profile.interactionProfile, XR_NULL_PATH) << "chosen by xrSyncActions only";
+    client_->begin_session(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
+    client_->empty_frame();
+    ASSERT_XR_SUCCESS(sync());
+    ASSERT_XR_SUCCESS(xrGetCurrentInteractionProfile(client_->session, hands_[0], &profile));
+    EXPECT_EQ(profile.interactionProfile, XR_NULL_PATH) << "the script has no left controller";
     ASSERT_XR_SUCCESS(xrGetCurrentInteractionProfile(client_->session, hands_[1], &profile));
     EXPECT_EQ(profile.interactionProfile, client_->path("/interaction_profiles/oculus/touch_controller"))
         << "the headset's own controllers come first";

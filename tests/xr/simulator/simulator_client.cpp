@@ -37,6 +37,11 @@ void SimulatorClient::create_session(VulkanEnable enable) {
     ASSERT_XR_SUCCESS(xrCreateSession(instance, &info, &session));
 }
 
+void SimulatorClient::create_headless_session() {
+    const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, nullptr, 0, system};
+    ASSERT_XR_SUCCESS(xrCreateSession(instance, &info, &session));
+}
+
 void SimulatorClient::begin_session(XrViewConfigurationType type) {
     const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, type};
     ASSERT_XR_SUCCESS(xrBeginSession(session, &info));

@@ -18,10 +18,22 @@ namespace foveray::simulator_tests {
 /// Sets the runtime and the simulator's variables for the next instance: virtual time and the given ones.
 void set_environment(const std::map<std::string, std::string>& variables);
 
-inline const std::vector<const char*> all_extensions = {
-    XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,  XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
-    XR_KHR_VISIBILITY_MASK_EXTENSION_NAME, XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
-    XR_VARJO_QUAD_VIEWS_EXTENSION_NAME,    XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME};
+inline const std::vector<const char*> all_extensions = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
+                                                        XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
+                                                        XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
+                                                        XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
+                                                        XR_VARJO_QUAD_VIEWS_EXTENSION_NAME,
+                                                        XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME,
+                                                        XR_EXT_HAND_TRACKING_EXTENSION_NAME,
+                                                        XR_EXT_CONFORMANCE_AUTOMATION_EXTENSION_NAME,
+                                                        XR_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                        XR_KHR_COMPOSITION_LAYER_CYLINDER_EXTENSION_NAME,
+                                                        XR_KHR_COMPOSITION_LAYER_EQUIRECT2_EXTENSION_NAME};
+/// For sessions without graphics.
+inline const std::vector<const char*> headless_extensions = {
+    XR_MND_HEADLESS_EXTENSION_NAME, XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
+    XR_EXT_HAND_TRACKING_EXTENSION_NAME, XR_EXT_CONFORMANCE_AUTOMATION_EXTENSION_NAME,
+    XR_EXT_DEBUG_UTILS_EXTENSION_NAME};
 
 /// A client of the simulator behind the real loader, one call a step.
 class SimulatorClient {
@@ -34,6 +46,7 @@ class SimulatorClient {
     SimulatorClient& operator=(const SimulatorClient&) = delete;
 
     void create_session(VulkanEnable enable = VulkanEnable::Second);
+    void create_headless_session();
     void begin_session(XrViewConfigurationType type = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO);
     XrFrameState wait_frame();
     XrResult end_frame(XrTime time, const std::vector<const XrCompositionLayerBaseHeader*>& layers = {},

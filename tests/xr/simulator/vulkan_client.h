@@ -6,6 +6,7 @@
 
 // OpenXR's platform header needs Vulkan's types before it.
 // clang-format off
+#include <ctime>
 #include <vulkan/vulkan.h>
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>

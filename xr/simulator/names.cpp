@@ -1,0 +1,24 @@
+#include "xr/simulator/names.h"
+
+#include <openxr/openxr_reflection.h>
+
+namespace foveray::simulator {
+
+const char* name_of(XrResult value) {
+    switch (value) {
+#define FOVERAY_CASE(name, number) \
+    case name:                     \
+        return #name;
+        XR_LIST_ENUM_XrResult(FOVERAY_CASE) default : return nullptr;
+    }
+}
+
+const char* name_of(XrStructureType value) {
+    switch (value) {
+        XR_LIST_ENUM_XrStructureType(FOVERAY_CASE)
+#undef FOVERAY_CASE
+            default : return nullptr;
+    }
+}
+
+}  // namespace foveray::simulator
