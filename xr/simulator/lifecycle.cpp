@@ -45,8 +45,9 @@ void Lifecycle::lose() {
     if (!lost()) enter(XR_SESSION_STATE_LOSS_PENDING);
 }
 
-void Lifecycle::ask_to_stop() {
+void Lifecycle::ask_to_stop(Stop stop) {
     verify(running_, XR_ERROR_SESSION_NOT_RUNNING);
+    if (stop == Stop::ForGood) stops_for_good_ = true;
     if (stopping() || lost()) return;
     walk_to(XR_SESSION_STATE_SYNCHRONIZED);
     enter(XR_SESSION_STATE_STOPPING);
@@ -57,7 +58,7 @@ void Lifecycle::end() {
     verify(stopping(), XR_ERROR_SESSION_NOT_STOPPING);
     running_ = false;
     enter(XR_SESSION_STATE_IDLE);
-    enter(XR_SESSION_STATE_EXITING);
+    enter(stops_for_good_ ? XR_SESSION_STATE_EXITING : XR_SESSION_STATE_READY);
 }
 
 }  // namespace foveray::simulator

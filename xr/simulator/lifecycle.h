@@ -29,10 +29,12 @@ class Lifecycle {
     void show(Script::Presence presence);
     /// LOSS_PENDING, from any state, for good.
     void lose();
+    /// Why a session is asked to stop: its program shall end, or may go on later.
+    enum class Stop { ForGood, Pause };
     /// Step by step to STOPPING. Refuses with XR_ERROR_SESSION_NOT_RUNNING.
-    void ask_to_stop();
-    /// xrEndSession. Refuses with XR_ERROR_SESSION_NOT_RUNNING or XR_ERROR_SESSION_NOT_STOPPING. IDLE,
-    /// EXITING.
+    void ask_to_stop(Stop stop);
+    /// xrEndSession. Refuses with XR_ERROR_SESSION_NOT_RUNNING or XR_ERROR_SESSION_NOT_STOPPING. IDLE, then
+    /// EXITING, or READY after a pause.
     void end();
 
   private:
@@ -41,7 +43,7 @@ class Lifecycle {
 
     std::function<void(XrSessionState)> announce_;
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
-    bool running_ = false;
+    bool running_ = false, stops_for_good_ = false;
 };
 
 }  // namespace foveray::simulator

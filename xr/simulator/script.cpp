@@ -13,6 +13,7 @@ std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
     static constexpr std::pair<std::string_view, EventKind> names[] = {
         {"exit", EventKind::Exit},
         {"session_loss", EventKind::SessionLoss},
+        {"session_pause", EventKind::SessionPause},
         {"focus_lost", EventKind::FocusLost},
         {"focus_gained", EventKind::FocusGained},
         {"visibility_lost", EventKind::VisibilityLost},
@@ -121,6 +122,12 @@ bool Script::has_happened(EventKind kind, Nanoseconds time) const {
 bool Script::exit_asked_at(Nanoseconds time) const { return has_happened(EventKind::Exit, time); }
 
 bool Script::session_lost_at(Nanoseconds time) const { return has_happened(EventKind::SessionLoss, time); }
+
+bool Script::paused(Nanoseconds after, Nanoseconds until) const {
+    return std::ranges::any_of(events_, [&](const Event& event) {
+        return event.kind == EventKind::SessionPause && event.time > after && event.time <= until;
+    });
+}
 
 bool Script::has_visibility_mask_at(Nanoseconds time) const {
     bool has_mask = true;

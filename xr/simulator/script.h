@@ -47,6 +47,8 @@ class Script {
     Presence presence_at(Nanoseconds time) const;
     bool exit_asked_at(Nanoseconds time) const;
     bool session_lost_at(Nanoseconds time) const;
+    /// The session is asked to pause in (after, until].
+    bool paused(Nanoseconds after, Nanoseconds until) const;
     /// The profile's hidden area is told to clients.
     bool has_visibility_mask_at(Nanoseconds time) const;
     /// The local space: upright, at the head's place when the session began or was last recentred.
@@ -58,6 +60,7 @@ class Script {
     enum class EventKind {
         Exit,
         SessionLoss,
+        SessionPause,
         FocusLost,
         FocusGained,
         VisibilityLost,

@@ -72,7 +72,7 @@ void Session::end() {
 void Session::request_exit() {
     const std::lock_guard lock(mutex_);
     verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
-    lifecycle_.ask_to_stop();
+    lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
 }
 
 void Session::change_visibility_mask(bool has_mask) {
@@ -95,12 +95,15 @@ void Session::play_script(const FrameTime& frame) {
             XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
             to_xr(inverse(previous) * next)});
     }
+    const bool paused = script.paused(played_until_, time);
     played_until_ = time;
     change_visibility_mask(script.has_visibility_mask_at(time));
     if (script.session_lost_at(time)) lifecycle_.lose();
     if (!lifecycle_.running()) return;
     if (script.ended(frame.index) || script.exit_asked_at(time)) {
-        lifecycle_.ask_to_stop();
+        lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    } else if (paused) {
+        lifecycle_.ask_to_stop(Lifecycle::Stop::Pause);
     } else {
         lifecycle_.show(script.presence_at(time));
     }
@@ -148,15 +151,18 @@ void Session::end_frame(const XrFrameEndInfo& info) {
     const FrameTime frame = *begun_;
     lock.unlock();
 
-    const std::vector<ProjectionLayer> layers = read_layers(*this, info);
     const Script& script = instance_->script();
-    if (capture_ && capture_->wants(frame.index) && !script.ended(frame.index))
-        capture_->write(frame.index, layers);
+    if (!headless()) {  // which shows no layers
+        const std::vector<ProjectionLayer> layers = read_layers(*this, info);
+        if (capture_->wants(frame.index) && !script.ended(frame.index)) capture_->write(frame.index, layers);
+    }
 
     lock.lock();
-    begun_.reset();
+    // Another thread may have begun the next frame meanwhile.
+    if (begun_ && begun_->index == frame.index) begun_.reset();
     // The last frame of the script is on display: stop before the client waits for another.
-    if (script.ended(frame.index + 1) && lifecycle_.running()) lifecycle_.ask_to_stop();
+    if (script.ended(frame.index + 1) && lifecycle_.running())
+        lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
 }
 
 }  // namespace foveray::simulator

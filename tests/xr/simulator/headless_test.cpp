@@ -68,6 +68,21 @@ TEST(Headless, MayHaveFramesButNothingToRender) {
         << "frames, not xrSyncActions, carry the time on once there are any";
 }
 
+TEST(Headless, LayersOfAFrameAreIgnored) {
+    set_environment({});
+    SimulatorClient client(headless_extensions);
+    client.create_headless_session();
+    client.begin_session(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
+    const XrFrameState state = client.wait_frame();
+    ASSERT_XR_SUCCESS(xrBeginFrame(client.session, nullptr));
+    XrCompositionLayerProjection nothing{};  // what a program without images can make
+    nothing.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION;
+    nothing.space = client.reference_space(XR_REFERENCE_SPACE_TYPE_LOCAL);
+    EXPECT_EQ(client.end_frame(state.predictedDisplayTime,
+                               {reinterpret_cast<const XrCompositionLayerBaseHeader*>(&nothing)}),
+              XR_SUCCESS);
+}
+
 TEST(Headless, SyncPlaysTheScriptWithoutFrames) {
     fakes::TemporaryFolder folder;
     write_session(folder.path() / "s", make_session(3));

@@ -190,6 +190,53 @@ TEST(ScriptedSession, RunsAtItsOwnRate) {
     EXPECT_EQ(client.empty_frame().predictedDisplayPeriod, 20'000'000);
 }
 
+TEST(ScriptedSession, IsReadyAgainAfterAPause) {
+    fakes::TemporaryFolder folder;
+    Session script = make_session(100);
+    script.events = {{from_seconds(1 / 30.0), "session_pause", ""}};
+    write_session(folder.path() / "s", script);
+    set_environment({{"SESSION", folder.path() / "s"}});
+    SimulatorClient client;
+    client.create_session();
+    client.begin_session();
+    client.empty_frame();
+    client.take_states();
+    EXPECT_FALSE(client.empty_frame().shouldRender);
+    EXPECT_EQ(client.take_states(), (States{visible, synchronized, stopping}));
+    ASSERT_XR_SUCCESS(xrEndSession(client.session));
+    EXPECT_EQ(client.take_states(), (States{idle, ready}));
+    XrFrameState state{XR_TYPE_FRAME_STATE, nullptr, 0, 0, XR_FALSE};
+    EXPECT_EQ(xrWaitFrame(client.session, nullptr, &state), XR_ERROR_SESSION_NOT_RUNNING);
+    EXPECT_EQ(xrBeginFrame(client.session, nullptr), XR_ERROR_SESSION_NOT_RUNNING);
+    EXPECT_EQ(client.end_frame(1), XR_ERROR_SESSION_NOT_RUNNING);
+    client.begin_session();
+    EXPECT_TRUE(client.empty_frame().shouldRender);
+    EXPECT_EQ(client.take_states(), (States{synchronized, visible, focused}));
+    ASSERT_XR_SUCCESS(xrRequestExitSession(client.session));
+    ASSERT_XR_SUCCESS(xrEndSession(client.session));
+    EXPECT_EQ(client.take_states(), (States{visible, synchronized, stopping, idle, exiting}));
+}
+
+TEST(ScriptedSession, LossIsAnnouncedAndThenRefused) {
+    fakes::TemporaryFolder folder;
+    Session script = make_session(100);
+    script.events = {{from_seconds(1 / 30.0), "session_loss", ""}};
+    write_session(folder.path() / "s", script);
+    set_environment({{"SESSION", folder.path() / "s"}});
+    SimulatorClient client;
+    client.create_session();
+    client.begin_session();
+    client.empty_frame();
+    client.take_states();
+    client.empty_frame();
+    EXPECT_EQ(client.take_states(), States{XR_SESSION_STATE_LOSS_PENDING});
+    XrFrameState state{XR_TYPE_FRAME_STATE, nullptr, 0, 0, XR_FALSE};
+    EXPECT_EQ(xrWaitFrame(client.session, nullptr, &state), XR_ERROR_SESSION_LOST);
+    EXPECT_EQ(xrRequestExitSession(client.session), XR_ERROR_SESSION_LOST);
+    EXPECT_EQ(xrDestroySession(client.session), XR_SUCCESS);
+    client.session = XR_NULL_HANDLE;
+}
+
 TEST(ScriptedSession, EventsMoveTheStates) {
     fakes::TemporaryFolder folder;
     Session script = make_session(100);
