@@ -111,9 +111,15 @@ VkInstance Instance::vulkan_instance_of(VkPhysicalDevice device) const {
     return found != gpus_.end() ? found->second : VK_NULL_HANDLE;
 }
 
+void Instance::on_destroy() {
+    const std::lock_guard lock(mutex_);
+    destroyed_ = true;
+    suggestions_.clear();
+}
+
 void Instance::suggest(const std::string& interaction_profile, std::vector<SuggestedBinding> bindings) {
     const std::lock_guard lock(mutex_);
-    suggestions_[interaction_profile] = std::move(bindings);
+    if (!destroyed_) suggestions_[interaction_profile] = std::move(bindings);
 }
 
 std::map<std::string, std::vector<SuggestedBinding>> Instance::suggestions() const {

@@ -49,6 +49,8 @@ class Instance : public Object {
 
     /// Throws Fault when the variables, the profile or the session are at fault.
     explicit Instance(std::set<std::string, std::less<>> extensions);
+    /// Lets go of the suggested actions, which hold the instance.
+    void on_destroy() override;
 
     bool has(std::string_view extension) const { return extensions_.contains(extension); }
     const Options& options() const { return options_; }
@@ -97,6 +99,7 @@ class Instance : public Object {
     mutable std::mutex mutex_;  // what follows
     std::map<VkInstance, VulkanLoader> vulkan_;
     std::map<VkPhysicalDevice, VkInstance> gpus_;
+    bool destroyed_ = false;
     std::map<std::string, std::vector<SuggestedBinding>> suggestions_;
     std::set<std::pair<bool, std::string>> names_;
     bool has_session_ = false;

@@ -12,47 +12,86 @@ namespace foveray::simulator_tests {
 namespace {
 
 /// All functions whose first parameter is a handle.
-#define HANDLE_FUNCTIONS(_)                                                                                     \
-    _(xrDestroyInstance)                                                                                        \
-    _(xrGetInstanceProperties)                                                                                  \
-    _(xrPollEvent) _(xrResultToString) _(xrStructureTypeToString) _(xrStringToPath) _(xrPathToString) _(        \
-        xrGetSystem) _(xrGetSystemProperties) _(xrEnumerateEnvironmentBlendModes)                               \
-        _(xrEnumerateViewConfigurations) _(xrGetViewConfigurationProperties) _(                                 \
-            xrEnumerateViewConfigurationViews) _(xrCreateSession) _(xrDestroySession) _(xrBeginSession)         \
-            _(xrEndSession) _(xrRequestExitSession) _(xrWaitFrame) _(xrBeginFrame) _(xrEndFrame) _(             \
-                xrLocateViews) _(xrEnumerateReferenceSpaces) _(xrCreateReferenceSpace)                          \
-                _(xrGetReferenceSpaceBoundsRect) _(xrCreateActionSpace) _(xrLocateSpace) _(                     \
-                    xrDestroySpace) _(xrEnumerateSwapchainFormats) _(xrCreateSwapchain) _(xrDestroySwapchain)   \
-                    _(xrEnumerateSwapchainImages) _(xrAcquireSwapchainImage) _(xrWaitSwapchainImage) _(         \
-                        xrReleaseSwapchainImage) _(xrCreateActionSet) _(xrDestroyActionSet)                     \
-                        _(xrCreateAction) _(xrDestroyAction) _(xrSuggestInteractionProfileBindings) _(          \
-                            xrAttachSessionActionSets) _(xrGetCurrentInteractionProfile)                        \
-                            _(xrGetActionStateBoolean) _(xrGetActionStateFloat) _(                              \
-                                xrGetActionStateVector2f) _(xrGetActionStatePose) _(xrSyncActions)              \
-                                _(xrEnumerateBoundSourcesForAction) _(xrGetInputSourceLocalizedName) _(         \
-                                    xrApplyHapticFeedback) _(xrStopHapticFeedback) _(xrGetVisibilityMaskKHR)    \
-                                    _(xrGetVulkanInstanceExtensionsKHR) _(xrGetVulkanDeviceExtensionsKHR) _(    \
-                                        xrGetVulkanGraphicsDeviceKHR) _(xrGetVulkanGraphicsRequirementsKHR)     \
-                                        _(xrCreateVulkanInstanceKHR) _(xrCreateVulkanDeviceKHR) _(              \
-                                            xrGetVulkanGraphicsDevice2KHR)                                      \
-                                            _(xrGetVulkanGraphicsRequirements2KHR) _(                           \
-                                                xrConvertTimespecTimeToTimeKHR)                                 \
-                                                _(xrConvertTimeToTimespecTimeKHR) _(                            \
-                                                    xrSetDebugUtilsObjectNameEXT)                               \
-                                                    _(xrCreateDebugUtilsMessengerEXT) _(                        \
-                                                        xrDestroyDebugUtilsMessengerEXT)                        \
-                                                        _(xrSubmitDebugUtilsMessageEXT) _(                      \
-                                                            xrSessionBeginDebugUtilsLabelRegionEXT)             \
-                                                            _(xrSessionEndDebugUtilsLabelRegionEXT) _(          \
-                                                                xrSessionInsertDebugUtilsLabelEXT)              \
-                                                                _(xrCreateHandTrackerEXT) _(                    \
-                                                                    xrDestroyHandTrackerEXT)                    \
-                                                                    _(xrLocateHandJointsEXT) _(                 \
-                                                                        xrSetInputDeviceActiveEXT)              \
-                                                                        _(xrSetInputDeviceStateBoolEXT) _(      \
-                                                                            xrSetInputDeviceStateFloatEXT)      \
-                                                                            _(xrSetInputDeviceStateVector2fEXT) \
-                                                                                _(xrSetInputDeviceLocationEXT)
+// clang-format off
+#define HANDLE_FUNCTIONS(_)                       \
+    _(xrDestroyInstance)                          \
+    _(xrGetInstanceProperties)                    \
+    _(xrPollEvent)                                \
+    _(xrResultToString)                           \
+    _(xrStructureTypeToString)                    \
+    _(xrStringToPath)                             \
+    _(xrPathToString)                             \
+    _(xrGetSystem)                                \
+    _(xrGetSystemProperties)                      \
+    _(xrEnumerateEnvironmentBlendModes)           \
+    _(xrEnumerateViewConfigurations)              \
+    _(xrGetViewConfigurationProperties)           \
+    _(xrEnumerateViewConfigurationViews)          \
+    _(xrCreateSession)                            \
+    _(xrDestroySession)                           \
+    _(xrBeginSession)                             \
+    _(xrEndSession)                               \
+    _(xrRequestExitSession)                       \
+    _(xrWaitFrame)                                \
+    _(xrBeginFrame)                               \
+    _(xrEndFrame)                                 \
+    _(xrLocateViews)                              \
+    _(xrEnumerateReferenceSpaces)                 \
+    _(xrCreateReferenceSpace)                     \
+    _(xrGetReferenceSpaceBoundsRect)              \
+    _(xrCreateActionSpace)                        \
+    _(xrLocateSpace)                              \
+    _(xrDestroySpace)                             \
+    _(xrEnumerateSwapchainFormats)                \
+    _(xrCreateSwapchain)                          \
+    _(xrDestroySwapchain)                         \
+    _(xrEnumerateSwapchainImages)                 \
+    _(xrAcquireSwapchainImage)                    \
+    _(xrWaitSwapchainImage)                       \
+    _(xrReleaseSwapchainImage)                    \
+    _(xrCreateActionSet)                          \
+    _(xrDestroyActionSet)                         \
+    _(xrCreateAction)                             \
+    _(xrDestroyAction)                            \
+    _(xrSuggestInteractionProfileBindings)        \
+    _(xrAttachSessionActionSets)                  \
+    _(xrGetCurrentInteractionProfile)             \
+    _(xrGetActionStateBoolean)                    \
+    _(xrGetActionStateFloat)                      \
+    _(xrGetActionStateVector2f)                   \
+    _(xrGetActionStatePose)                       \
+    _(xrSyncActions)                              \
+    _(xrEnumerateBoundSourcesForAction)           \
+    _(xrGetInputSourceLocalizedName)              \
+    _(xrApplyHapticFeedback)                      \
+    _(xrStopHapticFeedback)                       \
+    _(xrGetVisibilityMaskKHR)                     \
+    _(xrGetVulkanInstanceExtensionsKHR)           \
+    _(xrGetVulkanDeviceExtensionsKHR)             \
+    _(xrGetVulkanGraphicsDeviceKHR)               \
+    _(xrGetVulkanGraphicsRequirementsKHR)         \
+    _(xrCreateVulkanInstanceKHR)                  \
+    _(xrCreateVulkanDeviceKHR)                    \
+    _(xrGetVulkanGraphicsDevice2KHR)              \
+    _(xrGetVulkanGraphicsRequirements2KHR)        \
+    _(xrConvertTimespecTimeToTimeKHR)             \
+    _(xrConvertTimeToTimespecTimeKHR)             \
+    _(xrSetDebugUtilsObjectNameEXT)               \
+    _(xrCreateDebugUtilsMessengerEXT)             \
+    _(xrDestroyDebugUtilsMessengerEXT)            \
+    _(xrSubmitDebugUtilsMessageEXT)               \
+    _(xrSessionBeginDebugUtilsLabelRegionEXT)     \
+    _(xrSessionEndDebugUtilsLabelRegionEXT)       \
+    _(xrSessionInsertDebugUtilsLabelEXT)          \
+    _(xrCreateHandTrackerEXT)                     \
+    _(xrDestroyHandTrackerEXT)                    \
+    _(xrLocateHandJointsEXT)                      \
+    _(xrSetInputDeviceActiveEXT)                  \
+    _(xrSetInputDeviceStateBoolEXT)               \
+    _(xrSetInputDeviceStateFloatEXT)              \
+    _(xrSetInputDeviceStateVector2fEXT)           \
+    _(xrSetInputDeviceLocationEXT)
+// clang-format on
 
 struct HandleFunction {
     const char* name;
