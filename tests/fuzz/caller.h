@@ -15,47 +15,85 @@
 namespace foveray::fuzz {
 
 /// Every function of the simulator that is called, by its name.
-#define FOVERAY_FUZZED_FUNCTIONS(_)                                                                         \
-    _(xrCreateInstance)                                                                                     \
-    _(xrDestroyInstance)                                                                                    \
-    _(xrEnumerateApiLayerProperties)                                                                        \
-    _(xrEnumerateInstanceExtensionProperties)                                                               \
-    _(xrGetInstanceProperties) _(xrPollEvent) _(xrResultToString) _(xrStructureTypeToString) _(             \
-        xrStringToPath) _(xrPathToString) _(xrGetSystem) _(xrGetSystemProperties)                           \
-        _(xrEnumerateEnvironmentBlendModes) _(xrEnumerateViewConfigurations) _(                             \
-            xrGetViewConfigurationProperties) _(xrEnumerateViewConfigurationViews) _(xrCreateSession)       \
-            _(xrDestroySession) _(xrBeginSession) _(xrEndSession) _(xrRequestExitSession) _(xrWaitFrame) _( \
-                xrBeginFrame) _(xrEndFrame) _(xrLocateViews) _(xrEnumerateReferenceSpaces)                  \
-                _(xrCreateReferenceSpace) _(xrGetReferenceSpaceBoundsRect) _(xrCreateActionSpace) _(        \
-                    xrLocateSpace) _(xrDestroySpace) _(xrEnumerateSwapchainFormats) _(xrCreateSwapchain)    \
-                    _(xrDestroySwapchain) _(xrEnumerateSwapchainImages) _(xrAcquireSwapchainImage) _(       \
-                        xrWaitSwapchainImage) _(xrReleaseSwapchainImage) _(xrCreateActionSet)               \
-                        _(xrDestroyActionSet) _(xrCreateAction) _(xrDestroyAction) _(                       \
-                            xrSuggestInteractionProfileBindings) _(xrAttachSessionActionSets)               \
-                            _(xrGetCurrentInteractionProfile) _(xrGetActionStateBoolean) _(                 \
-                                xrGetActionStateFloat) _(xrGetActionStateVector2f) _(xrGetActionStatePose)  \
-                                _(xrSyncActions) _(xrEnumerateBoundSourcesForAction) _(                     \
-                                    xrGetInputSourceLocalizedName) _(xrApplyHapticFeedback)                 \
-                                    _(xrStopHapticFeedback) _(xrGetVisibilityMaskKHR) _(                    \
-                                        xrGetVulkanInstanceExtensionsKHR) _(xrGetVulkanDeviceExtensionsKHR) \
-                                        _(xrGetVulkanGraphicsDeviceKHR) _(                                  \
-                                            xrGetVulkanGraphicsRequirementsKHR)                             \
-                                            _(xrGetVulkanGraphicsRequirements2KHR) _(                       \
-                                                xrSetDebugUtilsObjectNameEXT)                               \
-                                                _(xrCreateDebugUtilsMessengerEXT) _(                        \
-                                                    xrDestroyDebugUtilsMessengerEXT)                        \
-                                                    _(xrSubmitDebugUtilsMessageEXT) _(                      \
-                                                        xrSessionBeginDebugUtilsLabelRegionEXT)             \
-                                                        _(xrSessionEndDebugUtilsLabelRegionEXT) _(          \
-                                                            xrSessionInsertDebugUtilsLabelEXT)              \
-                                                            _(xrCreateHandTrackerEXT) _(                    \
-                                                                xrDestroyHandTrackerEXT)                    \
-                                                                _(xrLocateHandJointsEXT) _(                 \
-                                                                    xrSetInputDeviceActiveEXT)              \
-                                                                    _(xrSetInputDeviceStateBoolEXT) _(      \
-                                                                        xrSetInputDeviceStateFloatEXT)      \
-                                                                        _(xrSetInputDeviceStateVector2fEXT) \
-                                                                            _(xrSetInputDeviceLocationEXT)
+// clang-format off
+#define FOVERAY_FUZZED_FUNCTIONS(_)               \
+    _(xrGetInstanceProcAddr)                      \
+    _(xrCreateInstance)                           \
+    _(xrDestroyInstance)                          \
+    _(xrEnumerateApiLayerProperties)              \
+    _(xrEnumerateInstanceExtensionProperties)     \
+    _(xrGetInstanceProperties)                    \
+    _(xrPollEvent)                                \
+    _(xrResultToString)                           \
+    _(xrStructureTypeToString)                    \
+    _(xrStringToPath)                             \
+    _(xrPathToString)                             \
+    _(xrGetSystem)                                \
+    _(xrGetSystemProperties)                      \
+    _(xrEnumerateEnvironmentBlendModes)           \
+    _(xrEnumerateViewConfigurations)              \
+    _(xrGetViewConfigurationProperties)           \
+    _(xrEnumerateViewConfigurationViews)          \
+    _(xrCreateSession)                            \
+    _(xrDestroySession)                           \
+    _(xrBeginSession)                             \
+    _(xrEndSession)                               \
+    _(xrRequestExitSession)                       \
+    _(xrWaitFrame)                                \
+    _(xrBeginFrame)                               \
+    _(xrEndFrame)                                 \
+    _(xrLocateViews)                              \
+    _(xrEnumerateReferenceSpaces)                 \
+    _(xrCreateReferenceSpace)                     \
+    _(xrGetReferenceSpaceBoundsRect)              \
+    _(xrCreateActionSpace)                        \
+    _(xrLocateSpace)                              \
+    _(xrDestroySpace)                             \
+    _(xrEnumerateSwapchainFormats)                \
+    _(xrCreateSwapchain)                          \
+    _(xrDestroySwapchain)                         \
+    _(xrEnumerateSwapchainImages)                 \
+    _(xrAcquireSwapchainImage)                    \
+    _(xrWaitSwapchainImage)                       \
+    _(xrReleaseSwapchainImage)                    \
+    _(xrCreateActionSet)                          \
+    _(xrDestroyActionSet)                         \
+    _(xrCreateAction)                             \
+    _(xrDestroyAction)                            \
+    _(xrSuggestInteractionProfileBindings)        \
+    _(xrAttachSessionActionSets)                  \
+    _(xrGetCurrentInteractionProfile)             \
+    _(xrGetActionStateBoolean)                    \
+    _(xrGetActionStateFloat)                      \
+    _(xrGetActionStateVector2f)                   \
+    _(xrGetActionStatePose)                       \
+    _(xrSyncActions)                              \
+    _(xrEnumerateBoundSourcesForAction)           \
+    _(xrGetInputSourceLocalizedName)              \
+    _(xrApplyHapticFeedback)                      \
+    _(xrStopHapticFeedback)                       \
+    _(xrGetVisibilityMaskKHR)                     \
+    _(xrGetVulkanInstanceExtensionsKHR)           \
+    _(xrGetVulkanDeviceExtensionsKHR)             \
+    _(xrGetVulkanGraphicsDeviceKHR)               \
+    _(xrGetVulkanGraphicsRequirementsKHR)         \
+    _(xrGetVulkanGraphicsRequirements2KHR)        \
+    _(xrSetDebugUtilsObjectNameEXT)               \
+    _(xrCreateDebugUtilsMessengerEXT)             \
+    _(xrDestroyDebugUtilsMessengerEXT)            \
+    _(xrSubmitDebugUtilsMessageEXT)               \
+    _(xrSessionBeginDebugUtilsLabelRegionEXT)     \
+    _(xrSessionEndDebugUtilsLabelRegionEXT)       \
+    _(xrSessionInsertDebugUtilsLabelEXT)          \
+    _(xrCreateHandTrackerEXT)                     \
+    _(xrDestroyHandTrackerEXT)                    \
+    _(xrLocateHandJointsEXT)                      \
+    _(xrSetInputDeviceActiveEXT)                  \
+    _(xrSetInputDeviceStateBoolEXT)               \
+    _(xrSetInputDeviceStateFloatEXT)              \
+    _(xrSetInputDeviceStateVector2fEXT)           \
+    _(xrSetInputDeviceLocationEXT)
+// clang-format on
 
 struct Functions {
 #define FOVERAY_MEMBER(name) PFN_##name name = nullptr;

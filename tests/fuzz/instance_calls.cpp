@@ -49,6 +49,11 @@ void enumerate_extensions(Caller& c) {
     c.call.xrEnumerateApiLayerProperties(capacity, c.out<std::uint32_t>(), c.out<XrApiLayerProperties>());
 }
 
+void get_function(Caller& c) {
+    const char* name = c.random.pick({"xrCreateInstance", "xrPollEvent", "xrLocateHandJointsEXT", "xr", ""});
+    c.call.xrGetInstanceProcAddr(c.handle<XrInstance>(), c.maybe(*name), c.out<PFN_xrVoidFunction>());
+}
+
 void get_instance_properties(Caller& c) {
     auto& properties = c.structure<XrInstanceProperties>(XR_TYPE_INSTANCE_PROPERTIES);
     c.call.xrGetInstanceProperties(c.handle<XrInstance>(), c.maybe(properties));
@@ -126,6 +131,7 @@ std::vector<Call> instance_calls() {
     return {{"xrCreateInstance", 10, create_instance},
             {"xrDestroyInstance", 1, destroy_instance},
             {"xrEnumerateInstanceExtensionProperties", 2, enumerate_extensions},
+            {"xrGetInstanceProcAddr", 2, get_function},
             {"xrGetInstanceProperties", 2, get_instance_properties},
             {"xrPollEvent", 30, poll_event},
             {"xrResultToString", 3, name_values},
