@@ -43,7 +43,6 @@ Inputs::Profiles Inputs::choose_profiles() const {
 
 void Inputs::bind() {
     bindings_.clear();
-    pose_sources_.clear();
     for (const auto& [user, profile] : profiles_) {
         const XrPath user_atom = instance_.paths().atom(user);
         for (const SuggestedBinding& suggestion : suggestions_.at(profile->path)) {
@@ -84,7 +83,7 @@ std::vector<const Inputs::Binding*> Inputs::live_bindings(std::span<const Active
 }
 
 /// OpenXR 1.0, section 11.4.2: of several sources the largest deflection wins, for Boolean any pressed one.
-/// A pose comes from one of them only.
+/// A pose comes from one of them only, and stays with its hand.
 Inputs::State Inputs::combine(const Key& key, std::span<const Binding* const> live,
                               Nanoseconds session_time) {
     const XrActionType type = key.action->type();
@@ -93,12 +92,12 @@ Inputs::State Inputs::combine(const Key& key, std::span<const Binding* const> li
         if (binding->action.get() != key.action) continue;
         if (key.subaction_path != XR_NULL_PATH && binding->user != key.subaction_path) continue;
         if (type == XR_ACTION_TYPE_POSE_INPUT) {
-            const auto chosen = pose_sources_.find(key);
-            if (chosen != pose_sources_.end() && chosen->second != binding->source) continue;
+            const auto chosen = pose_users_.find(key);
+            if (chosen != pose_users_.end() && chosen->second != binding->user) continue;
         }
         const auto value = devices_.value(*binding->source, session_time);
         if (!value) continue;
-        if (type == XR_ACTION_TYPE_POSE_INPUT) pose_sources_.emplace(key, binding->source);
+        if (type == XR_ACTION_TYPE_POSE_INPUT) pose_users_.emplace(key, binding->user);
         if (state.active && glm::length(*value) <= glm::length(state.value)) continue;
         state.active = true;
         state.value = *value;

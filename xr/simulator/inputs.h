@@ -78,7 +78,7 @@ class Inputs {
     std::map<std::string, std::vector<SuggestedBinding>> suggestions_;  // by interaction profile
     Profiles profiles_;
     std::vector<Binding> bindings_;
-    std::map<Key, const InputSource*> pose_sources_;  // a pose stays with the device that it came from first
+    std::map<Key, XrPath> pose_users_;  // whose pose it was first: it stays with that hand
     std::map<Key, State> states_;
 };
 

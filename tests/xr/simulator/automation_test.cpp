@@ -153,6 +153,12 @@ TEST_F(Automation, APoseStaysWithItsFirstDevice) {
     turn(false, true);
     EXPECT_FALSE(is_located(left) || is_located(any)) << "at once";
     EXPECT_TRUE(actions_->is_pose_active(hand, actions_->hands[0])) << "but the state stays as synced";
+    ASSERT_XR_SUCCESS(sync());
+    EXPECT_TRUE(is_located(right));
+    EXPECT_FALSE(is_located(any) || actions_->is_pose_active(hand)) << "the other hand does not take over";
+    turn(false, false);
+    ASSERT_XR_SUCCESS(sync());
+    EXPECT_FALSE(is_located(any) || is_located(right));
     turn(true, true);
     ASSERT_XR_SUCCESS(sync());
     EXPECT_TRUE(is_located(any));
