@@ -36,7 +36,7 @@ float ambient_visibility(Surface surface, vec2 turn) {
         // A mapped normal may send it below the surface, where nothing is to be learned.
         if (dot(direction, surface.geometric_normal) <= 0.0) direction = reflect(direction, surface.geometric_normal);
         ++occlusion_ray_count;
-        log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, direction, push.occlusion_radius);
+        log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, direction, push.occlusion_radius, cone);
         seen += greatest(trace_shadow(MASK_VIRTUAL, origin, direction, push.occlusion_radius, cone));
     }
     return seen / float(push.occlusion_samples);

@@ -53,8 +53,9 @@ Surface trace_waiting(out Path path, out vec3 origin) {
     origin = next.origin;
     uint mask = path.kind == PATH_ADDED ? MASK_VIRTUAL : MASK_ALL;
     uint faces = path.medium == NO_MEDIUM ? SEE_FRONT_FACES : SEE_BOTH_FACES;
-    log_ray(faces, mask, origin, path.direction, FARTHEST);
-    return trace_surface(mask, faces, origin, path.direction, FARTHEST, RayCone(next.width, path.spread));
+    RayCone cone = RayCone(next.width, path.spread);
+    log_ray(faces, mask, origin, path.direction, FARTHEST, cone);
+    return trace_surface(mask, faces, origin, path.direction, FARTHEST, cone);
 }
 
 // Straight on; there is always room for it.

@@ -22,7 +22,7 @@ vec3 light_between(vec3 origin, vec3 target, RayCone cone) {
     vec3 way = target - origin;
     float length_of_way = length(way);
     ++shadow_ray_count;
-    log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999);
+    log_ray(SHADOW_RAY_FLAGS, MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999, cone);
     return trace_shadow(MASK_VIRTUAL, origin, way / length_of_way, length_of_way * 0.9999, cone);
 }
 

@@ -55,8 +55,9 @@ void main() {
     }
     bool agree = lit == 0ul || dark == 0ul;
     bool mixed = VisibilityArray(push.visibility).at[entry] == VISIBILITY_MIXED;
-    append(push.undecided, !agree || mixed, place);
-    if (agree && !mixed) {
+    bool settled = agree && !mixed && (lit | dark) != 0ul;
+    append(push.undecided, !settled, place);
+    if (settled) {
         VisibilityArray(push.visibility).at[entry] = pack_visibility(vec3(dark == 0ul ? 1.0 : 0.0));
         return;
     }

@@ -8,8 +8,9 @@ FOVERAY_SHARED_BEGIN
 
 struct LoggedRay {
     vec3 origin;
-    float t_max;
+    float t_min;  // ray_cone.h
     vec3 direction;
+    float t_max;
     uint flags_and_mask;  // flags of traceRayEXT in the upper 24 bits
 };
 
@@ -32,7 +33,7 @@ FOVERAY_SHARED_END
 
 #ifdef __cplusplus
 namespace foveray::shared {
-static_assert(sizeof(LoggedRay) == 32 && sizeof(RayLog) == 16 && sizeof(BareRaysPush) == 8);
+static_assert(sizeof(LoggedRay) == 36 && sizeof(RayLog) == 16 && sizeof(BareRaysPush) == 8);
 }  // namespace foveray::shared
 #else
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LoggedRays {

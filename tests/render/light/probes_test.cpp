@@ -37,7 +37,9 @@ void add_room(TestScene& world, vec3 min, vec3 max, const scene::Material& mater
 
 /// A lamp that shines down.
 void add_lamp(TestScene& world, vec3 center, vec2 half_size, float radiance) {
-    world.add(scene::AreaLight{"lamp", scene::AreaLightShape::Rectangle, vec3(half_size, 0.0f), vec3(radiance)}, look_at(center, center - vec3(0, 1, 0)));
+    world.add(
+        scene::AreaLight{"lamp", scene::AreaLightShape::Rectangle, vec3(half_size, 0.0f), vec3(radiance)},
+        look_at(center, center - vec3(0, 1, 0)));
 }
 
 class ProbesTest : public fakes::GpuTest {

@@ -1,5 +1,6 @@
 #include "render/sampling.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/fakes/gpu_fixture.h"
@@ -62,13 +63,12 @@ TEST_F(SamplingTest, RaysFollowThePolarMap) {
         float angle = std::atan2(glm::dot(d, gaze.up), glm::dot(d, gaze.right));
         if (angle < 0.0f) angle += 2.0f * pi;
         EXPECT_NEAR(angle / (2.0f * pi) * static_cast<float>(map.height), angular, 0.05f);
-        // The cone: half as wide as the sample's share of the sphere, away from the gaze.
+        // The cone: as wide as the samples stand apart, and a little more.
         const float radial_spacing = radians(shared::polar_radial_spacing(map, e));
         const float angular_spacing = radians(shared::polar_angular_spacing(map, e));
-        if (angular_spacing > 0.3f * radial_spacing) {
-            EXPECT_NEAR(surface.footprint / surface.distance,
-                        0.5f * std::sqrt(radial_spacing * angular_spacing), 0.02f * radial_spacing);
-        }
+        const float across = std::clamp(angular_spacing, 0.6f * radial_spacing, radial_spacing);
+        EXPECT_NEAR(surface.footprint / surface.distance, 1.3f * std::sqrt(radial_spacing * across),
+                    0.02f * radial_spacing);
     }
     EXPECT_EQ(rendered.rays[shared::COUNT_PRIMARY], traced);
     EXPECT_LT(traced, rendered.surfaces.size()) << "directions that no view shows are not traced";
