@@ -10,7 +10,8 @@
 namespace foveray::render {
 namespace {
 
-constexpr int fewest_adaptive = 16;  // samples a light, from which on it pays to look first
+constexpr int fewest_adaptive = 16;            // samples a light, from which on it pays to look first
+constexpr std::uint64_t most_rays = 1u << 30;  // of a launch: what every device allows
 
 }  // namespace
 
@@ -18,7 +19,10 @@ struct ShadowStage::Penumbras {
     std::uint32_t most;  // in a list
     std::uint32_t samples;
 
-    bool in_cells() const { return shared::penumbra_first_level(samples) > 0; }
+    /// A ray a thread, some first. False: a penumbra's samples are taken in one go, by one thread.
+    bool in_cells() const {
+        return shared::penumbra_first_level(samples) > 0 && std::uint64_t{most} * samples <= most_rays;
+    }
     vk::DeviceSize list_bytes() const { return sizeof(shared::PenumbraList) + 4 * vk::DeviceSize{most}; }
     vk::DeviceSize word_bytes() const { return 4 * vk::DeviceSize{most} * shared::penumbra_words(samples); }
 };

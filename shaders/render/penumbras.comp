@@ -40,7 +40,7 @@ void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
     bool inside = place.x < int(push.width) && place.y < int(push.height);
     uint index = push.first_sample + uint(place.y) * push.width + uint(place.x);
-    uint64_t list = penumbra_first_level(push.samples) == 0 ? push.whole : push.found;
+    uint64_t list = push.cells == 0 ? push.whole : push.found;
     for (uint light = 0; light < push.light_count; ++light) {
         uint entry = light * push.sample_count + index;
         if (!is_area_light(light_of_entry(entry))) continue;

@@ -23,7 +23,7 @@ struct PenumbraList {
 };
 
 // Where 64 or 256 samples of a light are asked for, some are taken first, and of the rest those that neighbouring ones
-// disagree about. How many first, as a power of two; 0: such a count is sampled in one go.
+// disagree about. How many first, as a power of two; 0: not of such a count.
 FOVERAY_INLINE uint penumbra_first_level(uint samples) { return samples == 64u ? 5u : samples == 256u ? 6u : 0u; }
 
 // A penumbra's words: flags; a bit a sample: it is lit; a bit a later sample: it is to be traced.
@@ -46,7 +46,7 @@ struct ShadowPush {
     uint64_t found;       // PenumbraList of light * sample_count + sample: what may lie in a penumbra
     uint64_t undecided;   // PenumbraList of places in `found`: what needs more than the first samples
     uint64_t whole;       // PenumbraList as `found`: what is sampled in one go
-    uint64_t cells;       // uint[place in `found`][penumbra_words]
+    uint64_t cells;       // uint[place in `found`][penumbra_words]; 0: all goes to `whole`
     uint64_t counters;    // uint[], see light_layers.h
     uint flags;           // LIGHTING_SHADOWS, LIGHTING_ADAPTIVE_SHADOWS
     uint samples;         // towards each area light
