@@ -1,4 +1,5 @@
 // Area lights against their closed forms, and adaptive shadows against all samples.
+#include <algorithm>
 #include <cmath>
 
 #include "base/headset_profile.h"
@@ -139,8 +140,11 @@ void expect_adaptive_as_good(const gpu::Device& device, const scene::Scene& scen
         EXPECT_LE(ratio, 1.1) << samples;
         int n = 0;
         for (std::size_t i = 0; i < truth.part.size(); ++i) {
-            const float e = std::abs(adaptive.part[i] - truth.part[i]), b = std::abs(all.part[i] - truth.part[i]);
-            if (e > 0.06f && truth.part[i] > 0 && truth.part[i] < 1 && ++n < 25) std::printf("  %zu truth %.4f all %.4f adaptive %.4f brute err %.3f\n", i, truth.part[i], all.part[i], adaptive.part[i], b);
+            const float e = std::abs(adaptive.part[i] - truth.part[i]),
+                        b = std::abs(all.part[i] - truth.part[i]);
+            if (e > 0.06f && truth.part[i] > 0 && truth.part[i] < 1 && ++n < 25)
+                std::printf("  %zu truth %.4f all %.4f adaptive %.4f brute err %.3f\n", i, truth.part[i],
+                            all.part[i], adaptive.part[i], b);
         }
         EXPECT_LT(static_cast<double>(adaptive.rays), 0.75 * static_cast<double>(all.rays)) << samples;
         std::printf("%d samples: error %.4f, adaptive %.4f (ratio %.3f) with %.2f of the rays\n", samples,
@@ -168,6 +172,23 @@ TEST_F(AreaLightTest, AdaptiveShadowsAreAsGoodAsAllSamples) {
         shot.views = {square_view(28.0f, 32, look_at({0.0f, 1.5f, 1.2f}, vec3(0.0f)))};
         expect_adaptive_as_good(device(), scene, shot);
     }
+}
+
+// At the edges of sharp shadows neighbours disagree as in penumbras; there is nothing to be sampled there.
+TEST_F(AreaLightTest, SharpShadowsAreNoPenumbras) {
+    TestScene world;
+    world.add(scene::make_rectangle(vec2(3.0f)), matte(vec3(0.8f)));
+    world.add(scene::make_box({0.2f, 0.2f, 0.2f}), matte(vec3(0.5f)), {.position = {0.0f, 0.3f, 0.0f}});
+    world.add(scene::Light{"lamp", scene::LightKind::Point, vec3(5.0f)},
+              Pose{.position = {0.6f, 1.5f, 0.2f}});
+    const scene::Scene scene = world.build();
+    Shot shot;
+    shot.views = {square_view(28.0f, 32, look_at({0.0f, 1.5f, 1.2f}, vec3(0.0f)))};
+    LightRig rig(device(), scene);
+    const Seen all = seen(rig, shot, 64, false), adaptive = seen(rig, shot, 64, true);
+    EXPECT_EQ(all.part, adaptive.part);
+    EXPECT_EQ(all.rays, adaptive.rays);
+    EXPECT_GT(std::ranges::count(all.part, 0.0f), 20);
 }
 
 // HERR's hall: most of its surfaces lie in some penumbra of detailed objects.
