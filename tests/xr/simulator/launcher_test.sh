@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# foveray-openxr-simulator: a program runs on the simulated headset, leaves its pictures, and its exit code is passed on.
+set -euo pipefail
+launcher=$1
+foveray=$2
+export FOVERAY_ASSETS=$3
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "$1"; cat "$work"/log; exit 1; }
+
+"$launcher" --profile quest-pro --session "$FOVERAY_ASSETS/sessions/demo" --time virtual --frames 0:2 --capture "$work/frames" \
+    -- env >"$work/log" || fail "exit code $?"
+for line in FOVERAY_SIMULATOR_PROFILE=quest-pro FOVERAY_SIMULATOR_TIME=virtual FOVERAY_SIMULATOR_CAPTURE_FRAMES=0:2; do
+    grep -qx "$line" "$work/log" || fail "no $line"
+done
+
+# A program that ends when the script does.
+mkdir "$work/session"
+cat >"$work/session/session.json" <<'SESSION'
+{"format": "foveray-session", "version": 1, "units": {"time": "ns", "length": "m", "rotation": "unit quaternion"},
+ "headset": "ci", "rate_hz": 30, "frames": 3, "recorded": []}
+SESSION
+"$launcher" --session "$work/session" --time virtual --frames 0:2 --capture "$work/frames" -- \
+    "$foveray" view "$FOVERAY_ASSETS/scenes/primitives.json" --runtime system >"$work/log" 2>&1 || fail "exit code $?"
+[ -f "$work/frames/frame_00001_left.png" ] || fail "no pictures"
+[ ! -e "$work/frames/frame_00002_left.png" ] || fail "a picture too many"
+
+code=0
+"$launcher" -- sh -c 'exit 7' || code=$?
+[ "$code" = 7 ] || { echo "exit code $code instead of 7"; exit 1; }
+for wrong in "--headset ci -- true" "--profile" "--profile --" "true" "--"; do
+    code=0
+    # shellcheck disable=SC2086
+    "$launcher" $wrong 2>"$work/log" || code=$?
+    [ "$code" = 2 ] || fail "'$wrong': exit code $code instead of 2"
+done
