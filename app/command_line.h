@@ -14,8 +14,8 @@ struct Notice {
     std::string text;
 };
 
-using Command =
-    std::variant<Notice, ViewOptions, ReplayOptions, BenchOptions, ImportOptions, DoctorOptions, SettingsOptions>;
+using Command = std::variant<Notice, ViewOptions, ReplayOptions, BenchOptions, ImportOptions, DoctorOptions,
+                             SettingsOptions>;
 
 struct CommandLine {
     Command command;

@@ -37,8 +37,8 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
       every_pixel_(setup.every_pixel),
       acuity_(setup.acuity),
       world_from_stage_(setup.scene->world_from_stage),
-      ring_(setup.device, setup.frames_in_flight),
       textures_(setup.device),
+      ring_(setup.device, setup.frames_in_flight),
       counters_(setup.device, setup.frames_in_flight),
       live_(setup.device, textures_, setup.frames_in_flight, setup.scene, setup.user_shaders),
       room_(setup.device, textures_, setup.frames_in_flight, setup.calibration, room_proxies(*setup.scene),
@@ -56,6 +56,7 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
 FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec2> pointer) {
     Frame frame = headset_.begin_frame();
     if (!frame.should_render) {
+        wait();  // holds nobody up, and frees what was replaced
         headset_.end_frame(frame);
         return {std::move(frame), false, {}};
     }
@@ -91,9 +92,10 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
                                       counters_.address(), shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    const bool real_surfaces = !live_.scene().real_surfaces.empty();
-    light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
-    const auto images = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
+    light = history_.record(
+        cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
+    const auto images =
+        resolve_.record(cmd, light, grid, frame.views, live_.scene().changes_what_is_behind, settings);
     compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
                        passthrough::choose_background(camera_ != nullptr, frame.blend, settings), settings);
     headset_.record_submission(cmd, frame, pictures_of(images));

@@ -90,8 +90,8 @@ class FrameLoop {
     Pose world_from_stage_;
     HeadHistory head_history_;
 
-    gpu::FrameRing ring_;
     gpu::TextureTable textures_;
+    gpu::FrameRing ring_;  // what it releases has entries in the table
     render::RayCounters counters_;
     render::LiveScene live_;
     passthrough::RoomStage room_;

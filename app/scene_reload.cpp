@@ -72,7 +72,7 @@ void SceneReload::watch_files() {
         if (!changed_.empty() && settled) reload(std::exchange(changed_, {}));
         std::erase_if(shown_, [](const auto& content) { return content.use_count() == 1; });
         std::unique_lock lock(mutex_);
-        if (wake_.wait_for(lock, period, [this] { return stop_; })) return;
+        if (wake_.wait_for(lock, period, [this] { return stop_.load(); })) return;
         // One at a time: until the frames have taken the last one, there is no other.
         while (ready_ && !stop_) wake_.wait_for(lock, period);
         if (stop_) return;
@@ -91,7 +91,11 @@ void SceneReload::watch(const std::vector<fs::path>& files) {
 /// It has another stamp than at first, and the same as at the last look: the editor is done.
 bool SceneReload::saved(File& file) {
     const std::string stamp = stamp_of(file.path);
-    if (stamp.empty()) return false;
+    if (stamp.empty()) {  // gone; when it is back it counts as saved
+        file.stamp.clear();
+        file.settled = true;
+        return false;
+    }
     const bool settled = stamp == file.stamp;
     const bool is_new = settled && !file.settled;
     file.stamp = stamp;
@@ -106,7 +110,11 @@ std::optional<scene::UserShapeId> SceneReload::shape_of(const fs::path& file) co
     return static_cast<scene::UserShapeId>(found - scene_->user_shapes.begin());
 }
 
-void SceneReload::reload(const std::vector<fs::path>& changed) {
+void SceneReload::reload(std::vector<fs::path> changed) {
+    // What was saved before a fault was mended elsewhere is still to be shown.
+    for (fs::path& file : std::exchange(failed_, {})) {
+        if (std::ranges::find(changed, file) == changed.end()) changed.push_back(std::move(file));
+    }
     const bool only_shapes =
         std::ranges::all_of(changed, [&](const fs::path& file) { return shape_of(file).has_value(); });
     try {
@@ -114,6 +122,7 @@ void SceneReload::reload(const std::vector<fs::path>& changed) {
     } catch (const std::exception& e) {
         // To be tried again when it is saved again, even if nothing is changed.
         for (std::string& text : shape_texts_) text.clear();
+        failed_ = changed;
         log::error("{}; the last good {} stays", e.what(), only_shapes ? "shape" : "scene");
     }
 }
@@ -141,13 +150,15 @@ void SceneReload::reload_scene(const std::vector<fs::path>& changed) {
         watch(files);  // the fault may be mended there
         throw;
     }
+    watch(files);  // what is saved while it is made ready shall be seen
+    if (stop_) return;
     render::UserShaders shaders = store_.prepare(*scene);
-    // What is saved while it is made ready shall be seen.
+    if (stop_) return;
+    std::vector<std::string> texts = texts_of(*scene);
+    make_ready(std::move(scene), std::move(shaders), changed);
+    shape_texts_ = std::move(texts);
     std::erase_if(files_,
                   [&](const File& file) { return std::ranges::find(files, file.path) == files.end(); });
-    watch(files);
-    shape_texts_ = texts_of(*scene);
-    make_ready(std::move(scene), std::move(shaders), changed);
 }
 
 void SceneReload::make_ready(std::shared_ptr<const scene::Scene> scene, render::UserShaders shaders,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <filesystem>
 #include <memory>
@@ -38,7 +39,7 @@ class SceneReload {
     void watch_files();
     void watch(const std::vector<std::filesystem::path>& files);
     static bool saved(File& file);
-    void reload(const std::vector<std::filesystem::path>& changed);
+    void reload(std::vector<std::filesystem::path> changed);
     void reload_shapes(const std::vector<std::filesystem::path>& changed);
     void reload_scene(const std::vector<std::filesystem::path>& changed);
     void make_ready(std::shared_ptr<const scene::Scene> scene, render::UserShaders shaders,
@@ -54,12 +55,13 @@ class SceneReload {
     std::vector<std::string> shape_texts_;  // by scene::UserShapeId, as they were last tried
     std::vector<File> files_;
     std::vector<std::filesystem::path> changed_;  // not yet read again
+    std::vector<std::filesystem::path> failed_;   // read, but something was wrong with them or others
     /// Scenes that were shown, which frames may still use: freed here, where it holds no frame up.
     std::vector<std::shared_ptr<const void>> shown_;
 
     std::mutex mutex_;
     std::condition_variable wake_;
-    bool stop_ = false;
+    std::atomic<bool> stop_ = false;
     std::optional<render::LiveScene::Next> ready_;
     std::thread thread_;
 };

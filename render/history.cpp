@@ -38,7 +38,7 @@ LightLayers HistoryStage::record(const gpu::Commands& cmd, const HistoryInput& i
         return input.light;
     }
     const auto stage = cmd.stage("history");
-    const std::uint32_t layers = input.real_surfaces ? 3 : 1;
+    const std::uint32_t layers = input.layers ? 3 : 1;
     const Kept& previous = kept_[current_];
     current_ = 1 - current_;
     Kept& kept = kept_[current_];

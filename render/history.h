@@ -15,8 +15,8 @@ struct HistoryInput {
     const SampleGrid& grid;
     const Surfaces& surfaces;
     const LightLayers& light;
-    bool real_surfaces = false;  // the scene has some: their layers are kept too
-    Nanoseconds time = 0;        // of display
+    bool layers = false;   // Scene::changes_what_is_behind: what becomes of the light behind is kept too
+    Nanoseconds time = 0;  // of display
     const Settings& settings;
 };
 

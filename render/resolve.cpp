@@ -18,7 +18,7 @@ ResolveStage::ResolveStage(const gpu::Device& device, const gpu::TextureTable& t
     : pipeline_(device, "render/resolve.comp", textures, sizeof(shared::ResolvePush)) {}
 
 ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
-                                std::span<const View> views, bool real_surfaces, const Settings& settings) {
+                                std::span<const View> views, bool layers, const Settings& settings) {
     using gpu::Access;
     const auto stage = cmd.stage("resolve");
     // Whoever made and read the pictures of the frame before.
@@ -32,12 +32,12 @@ ViewImages ResolveStage::record(const gpu::Commands& cmd, const LightLayers& lig
         grow(cmd, buffers.resolved, "resolved pixels", pixels * sizeof(shared::ResolvedPixel));
         grow(cmd, buffers.color, "colour", pixels * sizeof(std::uint32_t));
         grow(cmd, buffers.depth, "depth", pixels * sizeof(float));
-        if (real_surfaces)
+        if (layers)
             grow(cmd, buffers.real, "resolved real pixels", pixels * sizeof(shared::ResolvedRealPixel));
-        result.images.push_back({buffers.resolved.address(), real_surfaces ? buffers.real.address() : 0,
+        result.images.push_back({buffers.resolved.address(), layers ? buffers.real.address() : 0,
                                  buffers.color.address(), buffers.depth.address(), size});
         result.buffers.push_back(
-            {&buffers.resolved, real_surfaces ? &buffers.real : nullptr, &buffers.color, &buffers.depth});
+            {&buffers.resolved, layers ? &buffers.real : nullptr, &buffers.color, &buffers.depth});
 
         shared::ResolvePush push{};
         push.grid = grid.at(0);

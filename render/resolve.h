@@ -18,10 +18,10 @@ class ResolveStage {
   public:
     ResolveStage(const gpu::Device& device, const gpu::TextureTable& textures);
 
-    /// `views` as the grid was made for; `real_surfaces`: the scene has some. Compute shaders recorded
+    /// `views` as the grid was made for; `layers`: Scene::changes_what_is_behind. Compute shaders recorded
     /// afterwards see the result.
     ViewImages record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
-                      std::span<const View> views, bool real_surfaces, const Settings& settings);
+                      std::span<const View> views, bool layers, const Settings& settings);
 
   private:
     struct Buffers {

@@ -71,6 +71,15 @@ void pack_values(const scene::Material& m, shared::Material& into) {
 SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table, gpu::Uploader& uploader,
                              const scene::Scene& scene)
     : device_(device), table_(table) {
+    try {
+        add_materials(uploader, scene);
+    } catch (...) {
+        release();  // a destructor is not run for what was not made
+        throw;
+    }
+}
+
+void SceneTextures::add_materials(gpu::Uploader& uploader, const scene::Scene& scene) {
     for (const scene::Material& m : scene.materials) {
         const auto place = [&](const scene::TextureUse& u, Content content) {
             return use(uploader, scene, u, content);
@@ -87,7 +96,7 @@ SceneTextures::SceneTextures(const gpu::Device& device, gpu::TextureTable& table
     }
 }
 
-SceneTextures::~SceneTextures() {
+void SceneTextures::release() {
     for (const auto& [key, index] : textures_) table_.remove(index);
 }
 

@@ -21,7 +21,7 @@ class SceneTextures {
   public:
     SceneTextures(const gpu::Device& device, gpu::TextureTable& table, gpu::Uploader& uploader,
                   const scene::Scene& scene);
-    ~SceneTextures();
+    ~SceneTextures() { release(); }
     SceneTextures(const SceneTextures&) = delete;
     SceneTextures& operator=(const SceneTextures&) = delete;
 
@@ -29,6 +29,8 @@ class SceneTextures {
     const std::vector<shared::Material>& materials() const { return materials_; }
 
   private:
+    void add_materials(gpu::Uploader& uploader, const scene::Scene& scene);
+    void release();
     enum class Content { Color, Data };  // Color: sRGB
 
     const gpu::Image& image(gpu::Uploader& uploader, const scene::Scene& scene, const scene::Texture& texture,

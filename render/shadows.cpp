@@ -10,8 +10,10 @@
 namespace foveray::render {
 namespace {
 
-constexpr int fewest_adaptive = 16;            // samples a light, from which on it pays to look first
-constexpr std::uint64_t most_rays = 1u << 30;  // of a launch: what every device allows
+constexpr int fewest_adaptive = 16;  // samples a light, from which on it pays to look first
+// What every device allows of a launch and of a dispatch.
+constexpr std::uint64_t most_rays = 1u << 30;
+constexpr std::uint32_t most_groups = 65535, group_size = 64;
 
 }  // namespace
 
@@ -21,7 +23,8 @@ struct ShadowStage::Penumbras {
 
     /// A ray a thread, some first. False: a penumbra's samples are taken in one go, by one thread.
     bool in_cells() const {
-        return shared::penumbra_first_level(samples) > 0 && std::uint64_t{most} * samples <= most_rays;
+        return shared::penumbra_first_level(samples) > 0 && std::uint64_t{most} * samples <= most_rays &&
+               most <= group_size * most_groups;
     }
     vk::DeviceSize list_bytes() const { return sizeof(shared::PenumbraList) + 4 * vk::DeviceSize{most}; }
     vk::DeviceSize word_bytes() const { return 4 * vk::DeviceSize{most} * shared::penumbra_words(samples); }
@@ -101,7 +104,7 @@ void ShadowStage::trace_penumbras(const gpu::Commands& cmd, const shared::Shadow
                                   const Penumbras& penumbras) const {
     using gpu::Access;
     const std::uint32_t first = 1u << shared::penumbra_first_level(push.samples);
-    const vk::Extent3D groups{64, 1, 1}, places{push.light_count * push.width * push.height, 1, 1};
+    const vk::Extent3D groups{group_size, 1, 1}, places{push.light_count * push.width * push.height, 1, 1};
     cmd.barrier(Access::RayTracingWrite, Access::ComputeRead);
     cmd.barrier(Access::RayTracingWrite, Access::TransferWrite);
     cmd.barrier(Access::IndirectRead, Access::TransferWrite);

@@ -58,12 +58,13 @@ std::vector<ShotCost> measure(Offscreen& offscreen, Shot shot, double frame_ms, 
 }
 
 /// The frame's rays alone. Empty when they are too many to be kept.
-Spread measure_bare(Offscreen& offscreen, Shot shot, const render::RayCounts& counts, int frames) {
+Spread measure_bare(Offscreen& offscreen, Shot shot, int frames) {
+    offscreen.draw(shot);
     std::uint64_t rays = 0;
-    for (const std::uint64_t kind : counts) rays += kind;
-    constexpr std::uint64_t most = 80'000'000;  // 2.5 GB
+    for (const std::uint64_t kind : offscreen.finish().back().rays) rays += kind;
+    constexpr std::uint64_t most = 80'000'000;  // 3 GB
     if (rays > most) return {};
-    shot.bare_rays = static_cast<std::uint32_t>(rays + rays / 4);  // their number differs from frame to frame
+    shot.bare_rays = static_cast<std::uint32_t>(rays + rays / 16 + 64);  // frames differ by a few
     std::vector<double> times;
     const auto add = [&](const ShotCost& cost) {
         for (const gpu::StageTime& stage : cost.stages) {
@@ -120,7 +121,7 @@ Result run_row(const gpu::Device& device, user_shapes::ShapeStore& shapes, const
     Offscreen offscreen(device, scene, 2, shapes.prepare(scene));
     const std::vector<ShotCost> costs = measure(offscreen, shot, row.frame_ms, options);
     const std::uint64_t memory = gpu::used_memory(device) - before;
-    const Spread bare = measure_bare(offscreen, shot, costs.back().rays, options.quick ? 1 : 10);
+    const Spread bare = measure_bare(offscreen, shot, options.quick ? 1 : 10);
     if (!options.out.empty()) {
         for (std::size_t view = 0; view < shot.views.size(); ++view) {
             write_png(options.out / fmt::format("{}_view{}.png", file_name(row.name), view),

@@ -38,8 +38,8 @@ Offscreen::Offscreen(const gpu::Device& device, const scene::Scene& scene, std::
 Offscreen::Offscreen(const gpu::Device& device, std::shared_ptr<const scene::Scene> scene,
                      std::uint32_t frames_in_flight, const render::UserShaders& user_shaders)
     : device_(device),
-      ring_(device, frames_in_flight),
       textures_(device),
+      ring_(device, frames_in_flight),
       counters_(device, frames_in_flight),
       live_(device, textures_, frames_in_flight, std::move(scene), user_shaders),
       room_(device, textures_, frames_in_flight, std::nullopt, {}, room_distance),
@@ -89,9 +89,9 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
                                       shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    const bool real_surfaces = !live_.scene().real_surfaces.empty();
-    light = history_.record(cmd, {grid, hits, light, real_surfaces, frame.display_time, settings});
-    images_ = resolve_.record(cmd, light, grid, frame.views, real_surfaces, settings);
+    light = history_.record(
+        cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
+    images_ = resolve_.record(cmd, light, grid, frame.views, live_.scene().changes_what_is_behind, settings);
     compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
                        passthrough::Background::Environment, settings);
     counters_.read_back(cmd, slot);

@@ -75,8 +75,8 @@ class Offscreen {
     void trace_bare(const gpu::Commands& cmd);
 
     const gpu::Device& device_;
-    gpu::FrameRing ring_;
     gpu::TextureTable textures_;
+    gpu::FrameRing ring_;  // what it releases has entries in the table
     render::RayCounters counters_;
     render::LiveScene live_;
     passthrough::RoomStage room_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <span>
@@ -125,7 +126,12 @@ class Uploader {
     /// `portion`: bytes a submission, but for what is larger itself.
     explicit Uploader(const Device& device, vk::DeviceSize portion = whole_portion)
         : device_(device), portion_(portion) {}
-    ~Uploader() { flush(); }
+    /// Flushes, but not while a fault unwinds: what was to be filled may be gone already.
+    ~Uploader() {
+        if (std::uncaught_exceptions() == faults_) flush();
+    }
+    Uploader(const Uploader&) = delete;
+    Uploader& operator=(const Uploader&) = delete;
 
     Buffer buffer(const std::string& name, std::span<const std::byte> data, vk::BufferUsageFlags extra = {});
     /// Fills the first `levels` levels with tightly packed texels, level after level, makes the others by
@@ -136,6 +142,7 @@ class Uploader {
     void flush();
 
   private:
+    int faults_ = std::uncaught_exceptions();  // that unwind already
     void flush_if_large();
 
     const Device& device_;

@@ -72,6 +72,8 @@ struct Scene {
     std::vector<Instance> instances;             // derived
     std::vector<ShapeInstance> shape_instances;  // derived
     Aabb bounds;                                 // derived: of all instances at time 0, without real surfaces
+    // Derived: what lies behind virtual things may be shadowed, mirrored on or tinted, not only covered.
+    bool changes_what_is_behind = false;
 
     std::vector<std::string> warnings;  // what the loaders had to leave out; also logged
 };

@@ -196,6 +196,10 @@ void SceneBuilder::derive() {
         }
     }
 
+    scene_.changes_what_is_behind =
+        !scene_.real_surfaces.empty() || std::ranges::any_of(scene_.materials, [&](const Material& m) {
+            return !m.solid && (m.transmission > 0.0f || m.becomes_transmissive);
+        });
     scene_.bounds = {};
     SceneAnimator animator(scene_);
     const SceneChanges& start = animator.advance(0);

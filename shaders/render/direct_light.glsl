@@ -53,8 +53,11 @@ DirectLight direct_light(Surface surface, Brdf brdf, vec3 view, ShadowSource sha
             if (i >= shadows.known) {
                 vec2 turn = evenly_spread(shadows.turn, 7 * light.number);
                 if (shadows.later != vec3(0.0)) {
-                    float weight;
-                    vec3 target = area_light_point(area, surface.position, surface.normal, turn, weight);
+                    float weight = 0.0;
+                    vec3 target;
+                    for (uint k = 0; k < 8 && weight == 0.0; ++k) {  // not one below the horizon
+                        target = area_light_point(area, surface.position, surface.normal, evenly_spread(turn, k), weight);
+                    }
                     if (weight > 0.0 && shadow_later(surface, target, shadows.later * open)) continue;
                 }
                 arriving = area_light_visibility(area, surface, turn, shadows.samples);

@@ -37,7 +37,8 @@ vec3 light_through(Surface surface, vec3 target) {
 vec3 area_light_visibility(AreaLight area, Surface surface, vec2 turn, uint samples) {
     vec3 arrived = vec3(0.0);
     float sent = 0.0;
-    for (uint i = 0; i < samples; ++i) {
+    // Where all that were asked for lie below the horizon, some more: the light does shine here.
+    for (uint i = 0; i < samples || (sent == 0.0 && i < samples + 8); ++i) {
         float weight;
         vec3 target = area_light_point(area, surface.position, surface.normal, net_point(i, samples, turn), weight);
         if (weight == 0.0) continue;

@@ -43,7 +43,7 @@ void main() {
     uint64_t list = push.cells == 0 ? push.whole : push.found;
     for (uint light = 0; light < push.light_count; ++light) {
         uint entry = light * push.sample_count + index;
-        if (!is_area_light(light_of_entry(entry))) continue;
+        if (!is_area_light(LightArray(SceneDataArray(push.scene).at[0].lights).at[light])) continue;
         append(list, inside && in_penumbra(place, light, VisibilityArray(push.visibility).at[entry]), entry);
     }
 }

@@ -133,13 +133,16 @@ scene::Scene with_fine_gratings(scene::Scene scene, float frequency, int periods
 
 // Of all that a grating above half the acuity's density leaves, its own stripes included, no eye sees a
 // twentieth of its contrast: sensitivity falls to 1 at ppd / 2 from about 100, and is about 10 at ppd / 4,
-// where 3/4 ppd would come back.
-TEST_F(AcuityChart, NoFalsePatternAboveHalfTheAcuity) {
+// where 3/4 ppd would come back. What comes back of gratings nearer to ppd / 2 is finer, and seen less: by
+// the same law 0.65 ppd, as 0.35, needs a quarter, and 0.55 more than half.
+TEST_F(AcuityChart, NoFalsePatternIsSeenAboveHalfTheAcuity) {
     struct Fine {
         float frequency;  // of the acuity's pixels a degree
         int periods;      // a texture
+        double most = 0.05;
     };
-    for (const Fine f : {Fine{0.75f, 1}, Fine{0.75f, 5}, Fine{1.1f, 5}}) {
+    for (const Fine f :
+         {Fine{0.55f, 5, 0.2}, Fine{0.65f, 5, 0.12}, Fine{0.75f, 1}, Fine{0.75f, 5}, Fine{1.1f, 5}}) {
         const scene::Scene scene = with_fine_gratings(scene_, f.frequency, f.periods);
         LightRig rig(device(), scene);
         double worst = 0.0;
@@ -147,8 +150,8 @@ TEST_F(AcuityChart, NoFalsePatternAboveHalfTheAcuity) {
             for (const float meridian : fine_meridians) {
                 const Contrast contrast = contrast_at(rig, fine, e, meridian);
                 worst = std::max(worst, contrast.pattern);
-                EXPECT_LE(contrast.pattern, 0.05) << f.frequency << " ppd, " << f.periods << " periods, " << e
-                                                  << " degrees, meridian " << meridian;
+                EXPECT_LE(contrast.pattern, f.most) << f.frequency << " ppd, " << f.periods << " periods, "
+                                                    << e << " degrees, meridian " << meridian;
             }
         }
         std::cout << f.frequency << " ppd, " << f.periods << " periods a texture: " << worst << '\n';

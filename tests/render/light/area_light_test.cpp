@@ -138,14 +138,6 @@ void expect_adaptive_as_good(const gpu::Device& device, const scene::Scene& scen
         const Seen all = seen(rig, shot, samples, false), adaptive = seen(rig, shot, samples, true);
         const double ratio = penumbra_error(adaptive, truth) / penumbra_error(all, truth);
         EXPECT_LE(ratio, 1.1) << samples;
-        int n = 0;
-        for (std::size_t i = 0; i < truth.part.size(); ++i) {
-            const float e = std::abs(adaptive.part[i] - truth.part[i]),
-                        b = std::abs(all.part[i] - truth.part[i]);
-            if (e > 0.06f && truth.part[i] > 0 && truth.part[i] < 1 && ++n < 25)
-                std::printf("  %zu truth %.4f all %.4f adaptive %.4f brute err %.3f\n", i, truth.part[i],
-                            all.part[i], adaptive.part[i], b);
-        }
         EXPECT_LT(static_cast<double>(adaptive.rays), 0.75 * static_cast<double>(all.rays)) << samples;
         std::printf("%d samples: error %.4f, adaptive %.4f (ratio %.3f) with %.2f of the rays\n", samples,
                     penumbra_error(all, truth), penumbra_error(adaptive, truth), ratio,

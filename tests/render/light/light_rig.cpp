@@ -89,7 +89,7 @@ Rendered LightRig::render(const Shot& shot) {
     ViewImages images;
     Settings settings = shot.settings;
     settings.history_temporal = settings.history_temporal && shot.history;
-    const bool real = shot.paint || !gpu_scene_.scene().real_surfaces.empty();
+    const bool real = shot.paint || gpu_scene_.scene().changes_what_is_behind;
     Surfaces hits;
     {
         const gpu::Commands cmd = ring_.begin();
