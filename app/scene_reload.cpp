@@ -59,6 +59,7 @@ bool SceneReload::show() {
     if (!ready_) return false;
     loop_.show(std::move(*ready_));
     ready_.reset();
+    for (const fs::path& file : ready_files_) log::info("{}: reloaded", file.string());
     return true;
 }
 
@@ -167,9 +168,9 @@ void SceneReload::make_ready(std::shared_ptr<const scene::Scene> scene, render::
     if (next.content()) shown_.push_back(next.content());
     scene_ = std::move(scene);
     shaders_ = std::move(shaders);
-    for (const fs::path& file : changed) log::info("{}: reloaded", file.string());
     const std::lock_guard lock(mutex_);
     ready_ = std::move(next);
+    ready_files_ = changed;
 }
 
 }  // namespace foveray::app

@@ -63,6 +63,7 @@ class SceneReload {
     std::condition_variable wake_;
     std::atomic<bool> stop_ = false;
     std::optional<render::LiveScene::Next> ready_;
+    std::vector<std::filesystem::path> ready_files_;  // that it was made for
     std::thread thread_;
 };
 
