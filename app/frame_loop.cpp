@@ -94,10 +94,13 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
     }
     light = history_.record(
         cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
-    const auto images =
-        resolve_.record(cmd, light, grid, frame.views, live_.scene().changes_what_is_behind, settings);
-    compositor_.record(cmd, frame.views, images.images, room, scene.scene_data,
-                       passthrough::choose_background(camera_ != nullptr, frame.blend, settings), settings);
+    const auto images = resolve_.images(cmd, frame.views, live_.scene().changes_what_is_behind);
+    const auto background = passthrough::choose_background(camera_ != nullptr, frame.blend, settings);
+    for (std::size_t view = 0; view < frame.views.size(); ++view) {
+        resolve_.record(cmd, light, grid, images, view, settings);
+        compositor_.record(cmd, frame.views[view], images.images[view], room, scene.scene_data, background,
+                           settings);
+    }
     headset_.record_submission(cmd, frame, pictures_of(images));
     counters_.read_back(cmd, slot);
 

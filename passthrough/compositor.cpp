@@ -19,37 +19,33 @@ Background choose_background(bool has_camera, BlendMode blend, const Settings& s
 Compositor::Compositor(const gpu::Device& device, const gpu::TextureTable& textures)
     : pipeline_(device, "passthrough/compositor.comp", textures, sizeof(shared::CompositorPush)) {}
 
-void Compositor::record(const gpu::Commands& cmd, std::span<const View> views,
-                        std::span<const shared::ViewImage> images, const Room& room,
-                        vk::DeviceAddress scene_data, Background background, const Settings& settings) const {
-    assert(views.size() == images.size());
+void Compositor::record(const gpu::Commands& cmd, const View& view, const shared::ViewImage& image,
+                        const Room& room, vk::DeviceAddress scene_data, Background background,
+                        const Settings& settings) const {
+    assert(image.size == view.size);
     const auto stage = cmd.stage("compositor");
     cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::ComputeWrite);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const View& view = views[i];
-        assert(images[i].size == view.size);
-        const quat& q = view.stage_from_eye.orientation;
-        shared::CompositorPush push{};
-        push.resolved = images[i].resolved;
-        push.real = images[i].real;
-        push.color = images[i].color;
-        push.depth = images[i].depth;
-        push.room = room.params;
-        push.scene = scene_data;
-        push.stage_from_eye = {q.x, q.y, q.z, q.w};
-        push.origin = view.stage_from_eye.position;
-        push.background = static_cast<std::uint32_t>(background);
-        push.tangents = {std::tan(view.fov.left), std::tan(view.fov.right), std::tan(view.fov.up),
-                         std::tan(view.fov.down)};
-        push.size = view.size;
-        push.exposure = std::exp2(settings.exposure_ev);
-        push.tone_mapping =
-            settings.tone_mapping == "neutral" ? shared::TONE_MAPPING_NEUTRAL : shared::TONE_MAPPING_NONE;
-        push.near_m = settings.near_m;
-        push.far_m = settings.far_m;
-        push.environment_intensity = settings.environment_intensity;
-        pipeline_.dispatch(cmd, push, {view.size.x, view.size.y, 1}, {8, 8, 1});
-    }
+    const quat& q = view.stage_from_eye.orientation;
+    shared::CompositorPush push{};
+    push.resolved = image.resolved;
+    push.real = image.real;
+    push.color = image.color;
+    push.depth = image.depth;
+    push.room = room.params;
+    push.scene = scene_data;
+    push.stage_from_eye = {q.x, q.y, q.z, q.w};
+    push.origin = view.stage_from_eye.position;
+    push.background = static_cast<std::uint32_t>(background);
+    push.tangents = {std::tan(view.fov.left), std::tan(view.fov.right), std::tan(view.fov.up),
+                     std::tan(view.fov.down)};
+    push.size = view.size;
+    push.exposure = std::exp2(settings.exposure_ev);
+    push.tone_mapping =
+        settings.tone_mapping == "neutral" ? shared::TONE_MAPPING_NEUTRAL : shared::TONE_MAPPING_NONE;
+    push.near_m = settings.near_m;
+    push.far_m = settings.far_m;
+    push.environment_intensity = settings.environment_intensity;
+    pipeline_.dispatch(cmd, push, {view.size.x, view.size.y, 1}, {8, 8, 1});
 }
 
 }  // namespace foveray::passthrough

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "base/frame.h"
 #include "base/settings.h"
 #include "base/view.h"
@@ -21,17 +19,16 @@ enum class Background : std::uint32_t {
 /// `has_camera`: foveray has a camera of its own, whether or not a picture has come yet.
 Background choose_background(bool has_camera, BlendMode blend, const Settings& settings);
 
-/// Tone-maps the virtual part of every view, puts it over what stands behind, and projects the depth.
+/// Tone-maps the virtual part of a view, puts it over what stands behind, and projects the depth.
 class Compositor {
   public:
     Compositor(const gpu::Device& device, const gpu::TextureTable& textures);
 
-    /// `images[i]` belongs to `views[i]`: its ResolvedPixels, written by compute shaders before, become color
-    /// (sRGB, premultiplied alpha) and depth (settings.near_m to far_m). Whoever reads those puts a barrier
-    /// after Access::ComputeWrite. `scene_data`: address of shared::SceneData for its environment; 0: black.
-    void record(const gpu::Commands& cmd, std::span<const View> views,
-                std::span<const shared::ViewImage> images, const Room& room, vk::DeviceAddress scene_data,
-                Background background, const Settings& settings) const;
+    /// `image` is the view's: its ResolvedPixels, written by compute shaders before, become color (sRGB,
+    /// premultiplied alpha) and depth (settings.near_m to far_m). Whoever reads those puts a barrier after
+    /// Access::ComputeWrite. `scene_data`: address of shared::SceneData for its environment; 0: black.
+    void record(const gpu::Commands& cmd, const View& view, const shared::ViewImage& image, const Room& room,
+                vk::DeviceAddress scene_data, Background background, const Settings& settings) const;
 
   private:
     gpu::ComputePipeline pipeline_;

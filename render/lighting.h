@@ -23,7 +23,7 @@ struct LightLayers {
 
 struct LightingInput {
     const SampleGrid& grid;
-    vk::DeviceAddress surfaces;  // shared::Surface, by sample
+    vk::DeviceAddress surfaces;  // shared::StoredSurface, by sample
     const Shadows& shadows;      // on them
     vk::DeviceAddress scene;     // shared::SceneData
     vk::DeviceAddress room;      // shared::RoomParams; 0: no camera

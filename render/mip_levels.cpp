@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "render/scene/texture_sampler.h"
 
 namespace foveray::render {
 namespace {
@@ -42,15 +43,6 @@ struct Halving {
     std::vector<float> weights;
 };
 
-std::uint32_t wrapped(std::int64_t i, std::int64_t size, scene::Wrap wrap) {
-    const auto modulo = [](std::int64_t a, std::int64_t n) { return ((a % n) + n) % n; };
-    if (wrap == scene::Wrap::Repeat) return static_cast<std::uint32_t>(modulo(i, size));
-    if (wrap == scene::Wrap::ClampToEdge)
-        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
-    const std::int64_t there_and_back = modulo(i, 2 * size);
-    return static_cast<std::uint32_t>(std::min(there_and_back, 2 * size - 1 - there_and_back));
-}
-
 Halving halving(std::uint32_t from, std::uint32_t to, scene::Wrap wrap) {
     if (from == to) {
         Halving same{1, {}, std::vector<float>(to, 1.0f)};
@@ -64,7 +56,7 @@ Halving halving(std::uint32_t from, std::uint32_t to, scene::Wrap wrap) {
         const auto first = static_cast<std::int64_t>(std::ceil(center - reach * ratio - 0.5f));
         float sum = 0.0f;
         for (std::uint32_t tap = 0; tap < h.taps; ++tap) {
-            h.texels.push_back(wrapped(first + tap, from, wrap));
+            h.texels.push_back(scene::wrapped(first + tap, from, wrap));
             h.weights.push_back(kernel((static_cast<float>(first + tap) + 0.5f - center) / ratio));
             sum += h.weights.back();
         }

@@ -13,7 +13,7 @@ Surfaces PrimaryStage::record(const gpu::Commands& cmd, const SampleGrid& grid, 
                               vk::DeviceAddress counters) {
     using gpu::Access;
     const auto stage = cmd.stage("primary");
-    const vk::DeviceSize size = vk::DeviceSize{grid.sample_count} * sizeof(shared::Surface);
+    const vk::DeviceSize size = vk::DeviceSize{grid.sample_count} * sizeof(shared::StoredSurface);
     grow(cmd, surfaces_, "surfaces", size);
     for (const Access read : {Access::RayTracingRead, Access::ComputeRead}) {
         cmd.barrier(read, Access::RayTracingWrite);

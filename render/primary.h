@@ -9,7 +9,7 @@ namespace foveray::render {
 
 /// What the primary rays of one pass found.
 struct Surfaces {
-    vk::DeviceAddress surfaces = 0;  // shared::Surface[count], by sample
+    vk::DeviceAddress surfaces = 0;  // shared::StoredSurface[count], by sample
     std::uint32_t count = 0;
     const gpu::Buffer* buffer = nullptr;  // what holds them; belongs to the stage
 };
@@ -18,8 +18,7 @@ struct Surfaces {
 class PrimaryStage {
   public:
     /// `primary` is the tracer's entry for "render/primary.rgen". The tracer must outlive the stage.
-    PrimaryStage(const engine::SceneRayTracer& tracer,
-                 engine::RayGeneration primary);
+    PrimaryStage(const engine::SceneRayTracer& tracer, engine::RayGeneration primary);
 
     /// Stage "primary". The tracer must be prepared for the frame. `counters`: uint[RAY_COUNTER_KINDS *
     /// RAY_COUNTER_SLOTS], to which the rays are added. Orders itself after earlier passes' reads of the

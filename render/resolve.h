@@ -18,16 +18,19 @@ class ResolveStage {
   public:
     ResolveStage(const gpu::Device& device, const gpu::TextureTable& textures);
 
-    /// `views` as the grid was made for; `layers`: Scene::changes_what_is_behind. Compute shaders recorded
-    /// afterwards see the result.
-    ViewImages record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
-                      std::span<const View> views, bool layers, const Settings& settings);
+    /// Room for the frame's pictures. `layers`: Scene::changes_what_is_behind.
+    ViewImages images(const gpu::Commands& cmd, std::span<const View> views, bool layers);
+    /// One view of those that the grid was made for. Compute shaders recorded afterwards see it, until the
+    /// next view is resolved.
+    void record(const gpu::Commands& cmd, const LightLayers& light, const SampleGrid& grid,
+                const ViewImages& images, std::size_t view, const Settings& settings);
 
   private:
     struct Buffers {
-        gpu::Buffer resolved, real, color, depth;
+        gpu::Buffer color, depth;
     };
     gpu::ComputePipeline pipeline_;
+    gpu::Buffer resolved_, real_;
     std::array<Buffers, shared::MAX_VIEWS> buffers_;
 };
 

@@ -91,9 +91,12 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     }
     light = history_.record(
         cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
-    images_ = resolve_.record(cmd, light, grid, frame.views, live_.scene().changes_what_is_behind, settings);
-    compositor_.record(cmd, frame.views, images_.images, room, scene.scene_data,
-                       passthrough::Background::Environment, settings);
+    images_ = resolve_.images(cmd, frame.views, live_.scene().changes_what_is_behind);
+    for (std::size_t view = 0; view < frame.views.size(); ++view) {
+        resolve_.record(cmd, light, grid, images_, view, settings);
+        compositor_.record(cmd, frame.views[view], images_.images[view], room, scene.scene_data,
+                           passthrough::Background::Environment, settings);
+    }
     counters_.read_back(cmd, slot);
     if (shot.bare_rays > 0) trace_bare(cmd);
     ring_.submit();

@@ -27,8 +27,8 @@ void wait_for(const Device& device, const vk::raii::Fence& fence) {
     static_cast<void>(result);
 }
 
-// Two a pass of --reference, of which there may be 1024, and the others.
-constexpr std::uint32_t most_stages = 2 * 1024 + 64;
+// Three a pass of --reference, of which there may be 1024, and the others.
+constexpr std::uint32_t most_stages = 3 * 1024 + 64;
 
 }  // namespace
 

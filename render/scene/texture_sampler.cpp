@@ -7,14 +7,6 @@
 namespace foveray::scene {
 namespace {
 
-std::uint32_t wrapped(std::int64_t i, std::uint32_t size, Wrap wrap) {
-    const std::int64_t n = size;
-    if (wrap == Wrap::ClampToEdge) return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, n - 1));
-    const std::int64_t period = wrap == Wrap::Repeat ? n : 2 * n;
-    const std::int64_t m = (i % period + period) % period;
-    return static_cast<std::uint32_t>(m < n ? m : 2 * n - 1 - m);
-}
-
 float linear_of(std::uint8_t srgb) {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> t{};
@@ -25,6 +17,15 @@ float linear_of(std::uint8_t srgb) {
 }
 
 }  // namespace
+
+std::uint32_t wrapped(std::int64_t texel, std::uint32_t size, Wrap wrap) {
+    const std::int64_t n = size;
+    if (wrap == Wrap::ClampToEdge)
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(texel, 0, n - 1));
+    const std::int64_t period = wrap == Wrap::Repeat ? n : 2 * n;
+    const std::int64_t m = (texel % period + period) % period;
+    return static_cast<std::uint32_t>(m < n ? m : 2 * n - 1 - m);
+}
 
 TextureSampler::TextureSampler(const Scene& scene, TextureId texture)
     : sampler_(scene.textures[texture].sampler), full_(scene.images[scene.textures[texture].image].pixels) {

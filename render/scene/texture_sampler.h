@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "render/scene/material.h"
 #include "render/scene/scene.h"
 
 namespace foveray::scene {
+
+/// The texel that stands for one that may lie outside of `size` texels.
+std::uint32_t wrapped(std::int64_t texel, std::uint32_t size, Wrap wrap);
 
 /// A colour texture read on the CPU, averaged over any footprint: linear RGBA in levels halved with a box
 /// filter, bilinear in the nearest two. The scene must outlive it.

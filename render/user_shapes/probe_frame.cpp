@@ -51,7 +51,7 @@ ProbeFrame::ProbeFrame(const gpu::Device& device, gpu::TextureTable& textures, c
       primary_(pipeline_.tracer(), pipeline_.primary()),
       counters_(device, 1),
       grid_(device, "probe grid", sizeof(shared::SampleGrid), gpu::Residence::Upload),
-      readback_(device, "probe surfaces", pixels * sizeof(shared::Surface), gpu::Residence::Readback) {
+      readback_(device, "probe surfaces", pixels * sizeof(shared::StoredSurface), gpu::Residence::Readback) {
     accel_.fill_table(pipeline_);
 }
 
@@ -66,7 +66,7 @@ std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views, const
     grid_.write(gpu::bytes_of(params));
     grid.grids = grid_.address();
 
-    const vk::DeviceSize size = grid.sample_count * sizeof(shared::Surface);
+    const vk::DeviceSize size = grid.sample_count * sizeof(shared::StoredSurface);
     const gpu::Commands cmd = ring_.begin();
     counters_.clear(cmd);
     const render::GpuSceneFrame frame = gpu_scene_.record(cmd, 0, changes, {});
@@ -78,8 +78,10 @@ std::vector<shared::Surface> ProbeFrame::look(std::span<const View> views, const
     ring_.submit();
     ring_.wait();
     readback_.invalidate();
-    const auto mapped = readback_.mapped_as<shared::Surface>();
-    return {mapped.begin(), mapped.begin() + grid.sample_count};
+    std::vector<shared::Surface> result;
+    for (const auto& stored : readback_.mapped_as<shared::StoredSurface>().first(grid.sample_count))
+        result.push_back(shared::surface_of(stored));
+    return result;
 }
 
 void ProbeFrame::warm_up() {

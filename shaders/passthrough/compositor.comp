@@ -6,15 +6,13 @@
 #include "shaders/passthrough/room.glsl"
 #include "shaders/passthrough/tone_mapping.glsl"
 #include "shaders/shared/compositor.h"
+#include "shaders/shared/halves.h"
 #include "shaders/render/environment.glsl"
+#include "shaders/render/vectors.glsl"
 #include "shaders/shared/view_image.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { CompositorPush push; };
-
-vec4 unpack_halves(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
-
-vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
 vec3 view_direction(uvec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(push.size);

@@ -7,6 +7,7 @@
 #include "shaders/render/low_discrepancy.glsl"
 #include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_shadow.glsl"
+#include "shaders/render/vectors.glsl"
 #include "shaders/shared/surface.h"
 
 uint occlusion_ray_count = 0;

@@ -35,7 +35,7 @@ void main() {
     LightSampleArray samples = LightSampleArray(push.samples);
     SampleGuide guide = SampleGuide(0.0, 0, SURFACE_CULLED, 0xFFFFFFFFu);
     if (samples.at[index].valid != 0.0) {
-        Surface surface = SurfaceArray(push.surfaces).at[index];
+        Surface surface = surface_of(SurfaceArray(push.surfaces).at[index]);
         float distance = samples.at[index].distance;
         bool something = distance >= 0.0;
         guide.inverse_distance = something ? 1.0 / max(distance, 1e-6) : 0.0;

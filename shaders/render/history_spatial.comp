@@ -56,7 +56,7 @@ void main() {
     if ((push.flags & HISTORY_SPATIAL) != 0 && push.shadowed != 0 && strength > 0.0) {
         ShadowedLight shadowed = ShadowedLightArray(push.shadowed).at[index];
         SampleGuide own = SampleGuideArray(push.guides).at[index];
-        vec3 open = unpack_light(shadowed.open).rgb;
+        vec3 open = unpack_halves(shadowed.open).rgb;
         if (open != vec3(0.0)) {
             vec3 visibility = smoothed_visibility(map, at.z, ivec2(at.xy), own, strength);
             vec3 change = open * (visibility - unpack_visibility(own.visibility));

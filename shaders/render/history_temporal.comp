@@ -113,7 +113,7 @@ vec4 linear_light(History h, uint layer_start) {
     vec4 sum = vec4(0.0);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         if (h.weight[i] == 0.0) continue;
-        sum += h.weight[i] * unpack_light(PackedLightArray(push.previous_result).at[layer_start + h.index[i]]);
+        sum += h.weight[i] * unpack_halves(PackedLightArray(push.previous_result).at[layer_start + h.index[i]]);
     }
     return sum / h.total;
 }
@@ -135,7 +135,7 @@ vec4 spline_light(PolarMap map, uint eye, vec2 place, uint layer_start) {
         vec4 along = vec4(0.0);
         [[unroll]] for (int j = 0; j < 4; ++j) {
             uint index = sample_at(map, eye, ring, int(floor(center)) - 1 + j);
-            along += angular[j] * unpack_light(PackedLightArray(push.previous_result).at[layer_start + index]);
+            along += angular[j] * unpack_halves(PackedLightArray(push.previous_result).at[layer_start + index]);
         }
         sum += radial[i] * along;
     }
@@ -177,12 +177,12 @@ void main() {
 
     uint count_before = 2 * map_before.width * map_before.height;
     for (uint layer = 0; layer < push.layers; ++layer) {
-        vec4 now = unpack_light(smoothed.at[layer * count + index]);
+        vec4 now = unpack_halves(smoothed.at[layer * count + index]);
         vec4 mean = now, square = now * now;
         float number = 1.0;
         [[unroll]] for (int i = 0; i < NEIGHBOURS; ++i) {
             if (unpackHalf2x16(smoothed.at[around.index[i]].y).y == PACKED_CULLED) continue;
-            vec4 other = unpack_light(smoothed.at[layer * count + around.index[i]]);
+            vec4 other = unpack_halves(smoothed.at[layer * count + around.index[i]]);
             mean += other;
             square += other * other;
             number += 1.0;

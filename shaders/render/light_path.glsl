@@ -8,6 +8,7 @@
 #include "shaders/render/optics.glsl"
 #include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_surface.glsl"
+#include "shaders/render/vectors.glsl"
 
 // How a ray's light reaches the viewer.
 const uint PATH_SEEN = 0;    // straight, through see-through surfaces at most

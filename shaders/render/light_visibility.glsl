@@ -8,6 +8,7 @@
 #include "shaders/render/punctual_light.glsl"
 #include "shaders/render/surface_sides.glsl"
 #include "shaders/render/trace_shadow.glsl"
+#include "shaders/render/vectors.glsl"
 #include "shaders/shared/lighting.h"
 #include "shaders/shared/surface.h"
 

@@ -26,6 +26,4 @@ vec2 net_point(uint i, uint count, vec2 turn) {
     return vec2(moved >> 8u) / 16777216.0;
 }
 
-float greatest(vec3 v) { return max(v.r, max(v.g, v.b)); }
-
 #endif

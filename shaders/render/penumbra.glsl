@@ -29,7 +29,7 @@ Penumbra penumbra_at(uint entry) {
     vec2 turn = still_noise(push.noise, uvec2(in_block % push.width, in_block / push.width), 0, push.sub_sample);
     Light light = light_of_entry(entry);
     p.turn = evenly_spread(turn, 7 * light.number);
-    p.surface = SurfaceArray(push.surfaces).at[p.index];
+    p.surface = surface_of(SurfaceArray(push.surfaces).at[p.index]);
     p.area = area_light_at(light, p.surface.position, p.surface.normal);
     return p;
 }

@@ -22,11 +22,6 @@ bool probe_is_due(ProbeState state, uint probe, uint frame_index, uint flags) {
     return (frame_index + probe) % PROBE_SLEEP_PERIOD == 0;
 }
 
-vec3 rotate(vec4 quaternion, vec3 v) {
-    vec3 t = 2.0 * cross(quaternion.xyz, v);
-    return v + quaternion.w * t + cross(quaternion.xyz, t);
-}
-
 // Where a direction falls among the texels of a map: the first of four, and weights.
 struct ProbeTexels {
     uint first;

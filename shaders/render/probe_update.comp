@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/render/probe_field.glsl"
+#include "shaders/render/vectors.glsl"
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform PushBlock { ProbePush push; };

@@ -62,14 +62,14 @@ struct Filter {
 
 void add_polar(inout Filter f, uint index, uint count, float radial_weight, float angular_weight) {
     PackedLightArray light = PackedLightArray(push.packed);
-    vec4 radiance = unpack_light(light.at[index]);
+    vec4 radiance = unpack_halves(light.at[index]);
     if (radiance.a == PACKED_CULLED) return;
     float weight = radial_weight * angular_weight;
     f.sum.weight += weight;
     f.sum.radiance += weight * radiance;
     if (push.layers > 1) {
-        f.sum.transmitted += weight * unpack_light(light.at[count + index]).rgb;
-        f.sum.added += weight * unpack_light(light.at[2 * count + index]).rgb;
+        f.sum.transmitted += weight * unpack_halves(light.at[count + index]).rgb;
+        f.sum.added += weight * unpack_halves(light.at[2 * count + index]).rgb;
     }
     if (radial_weight > 0.0 && angular_weight > 0.0) {
         f.least = min(f.least, radiance.rgb);

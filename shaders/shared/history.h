@@ -2,6 +2,7 @@
 #ifndef FOVERAY_SHARED_HISTORY_H
 #define FOVERAY_SHARED_HISTORY_H
 
+#include "shaders/shared/halves.h"
 #include "shaders/shared/portable.h"
 #include "shaders/shared/sample_grid.h"
 
@@ -37,7 +38,7 @@ FOVERAY_CONST float PACKED_CULLED = -1.0f;
 
 struct HistoryPush {
     uint64_t grid;             // SampleGrid
-    uint64_t surfaces;         // Surface[]
+    uint64_t surfaces;         // StoredSurface[]
     uint64_t samples;          // LightSample[]
     uint64_t shadowed;         // ShadowedLight[], or 0
     uint64_t guides;           // SampleGuide[]
@@ -65,12 +66,7 @@ FOVERAY_ARRAY(PreviousPlaceArray, PreviousPlace);
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SampleGuideArray { SampleGuide at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PackedLightArray { uvec2 at[]; };
 
-vec4 unpack_light(uvec2 light) { return vec4(unpackHalf2x16(light.x), unpackHalf2x16(light.y)); }
-
-uvec2 pack_light(vec4 light) {
-    const float most = 65504.0;  // of a half
-    return uvec2(packHalf2x16(min(light.rg, most)), packHalf2x16(vec2(min(light.b, most), light.a)));
-}
+uvec2 pack_light(vec4 light) { return pack_halves(vec4(min(light.rgb, LARGEST_HALF), light.a)); }
 #endif
 
 #endif

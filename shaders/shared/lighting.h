@@ -21,7 +21,7 @@ FOVERAY_CONST uint LIGHTING_DEBUG_PROBES = 5u;
 
 struct LightingPush {
     uint64_t grid;      // SampleGrid
-    uint64_t surfaces;  // Surface[]
+    uint64_t surfaces;  // StoredSurface[]
     uint64_t samples;   // LightSample[]
     uint64_t shadowed;  // ShadowedLight[]; 0: not wanted
     uint64_t scene;     // SceneData

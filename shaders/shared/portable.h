@@ -33,6 +33,7 @@ using glm::floatBitsToUint;
 using glm::log2;
 using glm::sqrt;
 using glm::max;
+using glm::min;
 using glm::uintBitsToFloat;
 }  // namespace foveray::shared
 

@@ -38,7 +38,7 @@ FOVERAY_INLINE uint penumbra_words(uint samples) {
 FOVERAY_CONST uint SHADOWS_LATER_SAMPLES = 8u;  // ShadowPush::flags: trace the samples that are wanted, not the first
 
 struct ShadowPush {
-    uint64_t surfaces;    // Surface[]
+    uint64_t surfaces;    // StoredSurface[]
     uint64_t scene;       // SceneData
     uint64_t noise;       // uint[BLUE_NOISE_SIZE²], see render/blue_noise.h
     uint64_t visibility;  // uint[light * sample_count + sample]

@@ -56,7 +56,7 @@ Composite CompositorTest::compose(const CompositorSetup& setup) {
     shared::ViewImage image{resolved.address(), real.address(), color.address(), depth.address(), size};
     gpu::submit_and_wait(device(), [&](const gpu::Commands& cmd) {
         const Room room = room_stage.record(cmd, 0, setup.moment, setup.settings);
-        compositor.record(cmd, std::span(&setup.view, 1), std::span(&image, 1), room,
+        compositor.record(cmd, setup.view, image, room,
                           setup.environment ? scene.address() : 0, setup.background, setup.settings);
         cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::HostRead);
     });

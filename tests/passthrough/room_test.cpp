@@ -227,7 +227,7 @@ TEST_F(RoomTest, ANewPictureReplacesTheOneBefore) {
             const Room room = room_stage.record(cmd, ring.slot(), {shown[i], {}, {}}, Settings{});
             EXPECT_EQ(room.has_picture, shown[i] != nullptr);
             cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::ComputeWrite);  // depth is written again
-            compositor.record(cmd, std::span(&view, 1), std::span(&image, 1), room, 0, Background::Camera,
+            compositor.record(cmd, view, image, room, 0, Background::Camera,
                               Settings{});
             cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::HostRead);
             ring.submit();

@@ -6,6 +6,7 @@
 #ifndef FOVERAY_RENDER_SHAPES_VOXEL_WALK_GLSL
 #define FOVERAY_RENDER_SHAPES_VOXEL_WALK_GLSL
 
+#include "shaders/render/vectors.glsl"
 #include "shaders/shared/ray_cone.h"
 #include "shaders/shared/voxels.h"
 
@@ -36,8 +37,6 @@ struct VoxelSum {
     vec3 normal;
 };
 
-float largest_of(vec3 v) { return max(v.x, max(v.y, v.z)); }
-
 // `direction`: in voxels, unit length; `way`: through the node, voxels; `width`: the node's; `filled`: size of the node's
 // part within the object's box, outside of which there is nothing. `face`: by which the ray came in; the normal of cubes whose
 // sides turn all ways, such as a wall whose two sides are in the node.
@@ -66,7 +65,7 @@ void add_node(inout VoxelSum sum, VoxelNode node, vec3 direction, float way, flo
     float gain = alpha - sum.alpha;
     sum.alpha = alpha;
     sum.color += gain * node.color;
-    bool sided = (record.flags & VOXELS_SHOW_FACES) == 0 || length(node.sheet) > 0.1 * largest_of(node.coverage);
+    bool sided = (record.flags & VOXELS_SHOW_FACES) == 0 || length(node.sheet) > 0.1 * greatest(node.coverage);
     vec3 normal = sided ? node.sheet / max(length(node.sheet), 1e-6) : face;
     sum.normal += sided && facing < 0.0 ? -gain * normal : gain * normal;
     sum.t += gain * t;

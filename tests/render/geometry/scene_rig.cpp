@@ -3,8 +3,6 @@
 #include <map>
 #include <set>
 
-#include <glm/gtc/packing.hpp>
-
 namespace foveray::render {
 
 SceneRig::Shared& SceneRig::shared_for(const gpu::Device& device, const scene::Scene& scene) {
@@ -42,7 +40,7 @@ SampleGrid SceneRig::upload_grid(std::span<const View> views, const Pose& world_
 std::vector<shared::Surface> SceneRig::surfaces(Nanoseconds time, std::span<const View> views,
                                                 const Pose& world_from_stage) {
     const SampleGrid grid = upload_grid(views, world_from_stage);
-    const vk::DeviceSize size = grid.sample_count * sizeof(shared::Surface);
+    const vk::DeviceSize size = grid.sample_count * sizeof(shared::StoredSurface);
     readback_ = gpu::Buffer(device_, "test readback", size, gpu::Residence::Readback);
     changes_ = &animator_.advance(time);
 
@@ -60,8 +58,10 @@ std::vector<shared::Surface> SceneRig::surfaces(Nanoseconds time, std::span<cons
     ring_.submit();
     ring_.wait();
     readback_.invalidate();
-    const auto mapped = readback_.mapped_as<shared::Surface>();
-    return {mapped.begin(), mapped.begin() + grid.sample_count};
+    std::vector<shared::Surface> result;
+    for (const auto& stored : readback_.mapped_as<shared::StoredSurface>().first(grid.sample_count))
+        result.push_back(shared::surface_of(stored));
+    return result;
 }
 
 std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Settings& settings) {
@@ -81,9 +81,10 @@ std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Se
                                                    {grid, hits.surfaces, shadows, frame.scene_data, 0,
                                                     counters_.address(), shadows_.noise(), 0, settings},
                                                    0);
-    const ViewImages images = resolve_.record(cmd, light, grid, {&view, 1}, false, settings);
+    const ViewImages images = resolve_.images(cmd, {&view, 1}, false);
+    resolve_.record(cmd, light, grid, images, 0, settings);
     cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
-    cmd->copyBuffer(images.buffers[0].resolved->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
+    cmd->copyBuffer(images.resolved->vk(), readback_.vk(), vk::BufferCopy(0, 0, size));
     cmd.barrier(gpu::Access::TransferWrite, gpu::Access::HostRead);
     ring_.submit();
     ring_.wait();
@@ -91,7 +92,7 @@ std::vector<vec4> SceneRig::picture(Nanoseconds time, const View& view, const Se
     std::vector<vec4> result;
     for (const shared::ResolvedPixel& pixel :
          readback_.mapped_as<shared::ResolvedPixel>().first(grid.sample_count)) {
-        result.emplace_back(glm::unpackHalf2x16(pixel.radiance.x), glm::unpackHalf2x16(pixel.radiance.y));
+        result.push_back(shared::unpack_halves(pixel.radiance));
     }
     return result;
 }

@@ -61,14 +61,6 @@ void start_over(LightRig& rig) {
     rig.render(shot);
 }
 
-FloatImage radiance_of(const Picture& picture) {
-    FloatImage image(picture.size.x, picture.size.y, 3);
-    for (std::uint32_t y = 0; y < image.height; ++y)
-        for (std::uint32_t x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) image.at(x, y)[c] = picture.at(x, y).radiance[c];
-    return image;
-}
-
 /// What the display shows, 0 to 1.
 FloatImage shown(FloatImage radiance) {
     for (float& value : radiance.pixels) value = srgb_from_linear(std::clamp(value, 0.0f, 1.0f));

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include <glm/gtc/packing.hpp>
-
 namespace foveray::render {
 namespace {
 
@@ -14,15 +12,17 @@ std::vector<T> as(const std::vector<std::byte>& bytes) {
     return values;
 }
 
-vec4 unpack(uvec2 halves) { return {glm::unpackHalf2x16(halves.x), glm::unpackHalf2x16(halves.y)}; }
-
 Pixel unpack(const shared::ResolvedPixel& resolved, const shared::ResolvedRealPixel& real, float depth) {
-    const vec4 radiance = unpack(resolved.radiance);
-    return {vec3(radiance),  std::max(radiance.w, 0.0f), vec3(unpack(real.transmittance)),
-            radiance.w >= 0, vec3(unpack(real.added)),   depth};
+    const vec4 radiance = shared::unpack_halves(resolved.radiance);
+    return {vec3(radiance),
+            std::max(radiance.w, 0.0f),
+            vec3(shared::unpack_halves(real.transmittance)),
+            radiance.w >= 0,
+            vec3(shared::unpack_halves(real.added)),
+            depth};
 }
 
-const glm::uvec2 halves_of_one = uvec2(glm::packHalf2x16(vec2(1.0f)));
+const glm::uvec2 halves_of_one = shared::pack_halves(vec4(1.0f));
 
 }  // namespace
 
@@ -86,7 +86,7 @@ Rendered LightRig::render(const Shot& shot) {
     frame.display_time = shot.time;
     frame.views = shot.views;
     Rendered result;
-    ViewImages images;
+    LightLayers settled;
     Settings settings = shot.settings;
     settings.history_temporal = settings.history_temporal && shot.history;
     const bool real = shot.paint || gpu_scene_.scene().changes_what_is_behind;
@@ -116,17 +116,17 @@ Rendered LightRig::render(const Shot& shot) {
                                          s);
         }
         counters_.read_back(cmd, 0);
-        if (!shot.paint) {
-            const LightLayers settled =
-                history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
-            images = resolve_.record(cmd, settled, result.grid, shot.views, real, shot.settings);
-        }
+        if (!shot.paint)
+            settled = history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
         ring_.submit();
         ring_.wait();
         result.gaze = sampling_.gaze_frames(0);
         result.rays = counters_.counts(0);
         if (shot.read_samples) {
-            result.surfaces = as<shared::Surface>(read(*hits.buffer, hits.count * sizeof(shared::Surface)));
+            for (const auto& stored :
+                 as<shared::StoredSurface>(read(*hits.buffer, hits.count * sizeof(shared::StoredSurface)))) {
+                result.surfaces.push_back(shared::surface_of(stored));
+            }
             result.light =
                 as<shared::LightSample>(read(*light.buffer, hits.count * sizeof(shared::LightSample)));
         }
@@ -134,29 +134,44 @@ Rendered LightRig::render(const Shot& shot) {
     if (shot.paint) {
         const LightLayers light = paint(shot, result);
         const gpu::Commands cmd = ring_.begin();
-        const LightLayers settled =
-            history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
-        images = resolve_.record(cmd, settled, result.grid, shot.views, real, shot.settings);
+        settled = history_.record(cmd, {result.grid, hits, light, real, shot.time, settings});
         ring_.submit();
         ring_.wait();
     }
+    resolve(shot, settled, real, result);
+    return result;
+}
+
+void LightRig::resolve(const Shot& shot, const LightLayers& light, bool real, Rendered& rendered) {
     for (std::size_t i = 0; i < shot.views.size(); ++i) {
+        const gpu::Commands cmd = ring_.begin();
+        const ViewImages images = resolve_.images(cmd, shot.views, real);
+        resolve_.record(cmd, light, rendered.grid, images, i, shot.settings);
+        ring_.submit();
+        ring_.wait();
+
         Picture picture{shot.views[i].size, {}};
         const std::size_t count = std::size_t{picture.size.x} * picture.size.y;
-        const auto& buffers = images.buffers[i];
         const auto resolved =
-            as<shared::ResolvedPixel>(read(*buffers.resolved, count * sizeof(shared::ResolvedPixel)));
-        const auto depth = as<float>(read(*buffers.depth, count * sizeof(float)));
+            as<shared::ResolvedPixel>(read(*images.resolved, count * sizeof(shared::ResolvedPixel)));
+        const auto depth = as<float>(read(*images.buffers[i].depth, count * sizeof(float)));
         std::vector<shared::ResolvedRealPixel> reals(count, {halves_of_one, uvec2(0)});
-        if (buffers.real) {
+        if (images.real) {
             reals =
-                as<shared::ResolvedRealPixel>(read(*buffers.real, count * sizeof(shared::ResolvedRealPixel)));
+                as<shared::ResolvedRealPixel>(read(*images.real, count * sizeof(shared::ResolvedRealPixel)));
         }
         for (std::size_t p = 0; p < count; ++p)
             picture.pixels.push_back(unpack(resolved[p], reals[p], depth[p]));
-        result.views.push_back(std::move(picture));
+        rendered.views.push_back(std::move(picture));
     }
-    return result;
+}
+
+FloatImage radiance_of(const Picture& picture) {
+    FloatImage image(picture.size.x, picture.size.y, 3);
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) image.at(x, y)[c] = picture.at(x, y).radiance[c];
+    return image;
 }
 
 View square_view(float half_angle_degrees, std::uint32_t pixels, Pose stage_from_eye) {

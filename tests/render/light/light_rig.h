@@ -6,6 +6,7 @@
 
 #include "base/frame.h"
 #include "base/headset_profile.h"
+#include "base/image.h"
 #include "base/settings.h"
 #include "render/accel_scene.h"
 #include "render/history.h"
@@ -76,6 +77,7 @@ class LightRig {
   private:
     std::vector<std::byte> read(const gpu::Buffer& source, vk::DeviceSize size);
     LightLayers paint(const Shot& shot, const Rendered& rendered);
+    void resolve(const Shot& shot, const LightLayers& light, bool real, Rendered& rendered);
 
     const gpu::Device& device_;
     gpu::FrameRing ring_;
@@ -95,6 +97,8 @@ class LightRig {
     gpu::Buffer painted_;
 };
 
+/// Three channels.
+FloatImage radiance_of(const Picture& picture);
 /// At the origin or elsewhere, looking along -z unless turned; half-angles in degrees.
 View square_view(float half_angle_degrees, std::uint32_t pixels, Pose stage_from_eye = {});
 /// A pose at `eye` that looks at `target`.

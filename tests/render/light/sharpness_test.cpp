@@ -32,14 +32,6 @@ View crop_of(const HeadsetProfile::ViewProfile& profile, float off_axis_degrees,
     return view;
 }
 
-FloatImage radiance_of(const Picture& picture) {
-    FloatImage image(picture.size.x, picture.size.y, 3);
-    for (std::uint32_t y = 0; y < image.height; ++y)
-        for (std::uint32_t x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) image.at(x, y)[c] = picture.at(x, y).radiance[c];
-    return image;
-}
-
 /// Gaussian, `sigma` in pixels; leaves the border out.
 FloatImage low_pass(const FloatImage& image, float sigma) {
     const int reach = static_cast<int>(border);

@@ -176,7 +176,7 @@ TEST_F(UserShapeRays, FollowAPipelineThatTakesTheOthersPlace) {
         const render::Surfaces hits = primary.record(cmd, grid, 0, counters.address());
         ring.submit();
         ring.wait();
-        return read_back<shared::Surface>(*hits.buffer, 64)[36].base_color;
+        return shared::surface_of(read_back<shared::StoredSurface>(*hits.buffer, 64)[36]).base_color;
     };
     EXPECT_EQ(color(), vec3(1, 0, 0));
     {
