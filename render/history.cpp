@@ -70,6 +70,7 @@ LightLayers HistoryStage::record(const gpu::Commands& cmd, const HistoryInput& i
     push.layers = layers;
     push.flags = input.settings.history_spatial ? shared::HISTORY_SPATIAL : 0u;
     push.blend = blend_after(input.time - last_time_);
+    push.white = std::exp2(-input.settings.exposure_ev);
 
     const vk::Extent3D samples{grid.polar.width, grid.polar.height, 2};
     cmd.barrier(Access::ComputeRead, Access::ComputeWrite);  // earlier frames

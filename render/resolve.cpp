@@ -1,6 +1,7 @@
 #include "render/resolve.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/grow.h"
 #include "shaders/shared/resolve.h"
@@ -63,6 +64,7 @@ void ResolveStage::record(const gpu::Commands& cmd, const LightLayers& light, co
     push.filter_kind =
         settings.resolve_filter == "bilinear" ? shared::RESOLVE_BILINEAR : shared::RESOLVE_BICUBIC;
     push.debug_view = debug_view(settings);
+    push.white = std::exp2(-settings.exposure_ev);
     pipeline_.dispatch(cmd, push, {image.size.x, image.size.y, 1}, {8, 8, 1});
     cmd.barrier(Access::ComputeWrite, Access::ComputeRead);
 }

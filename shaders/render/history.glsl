@@ -2,6 +2,8 @@
 #ifndef FOVERAY_RENDER_HISTORY_GLSL
 #define FOVERAY_RENDER_HISTORY_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "shaders/render/gaze_frame.glsl"
 #include "shaders/shared/history.h"
 #include "shaders/shared/light_layers.h"
@@ -29,6 +31,26 @@ vec3 unpack_normal(uint packed_normal) {
     float fold = max(-n.z, 0.0);
     n.xy += mix(vec2(fold), vec2(-fold), greaterThanEqual(n.xy, vec2(0.0)));
     return normalize(n);
+}
+
+// The nearest neighbours in a polar image, almost a hexagon, with their steps from the sample.
+const int NEIGHBOURS = 6;
+struct Neighbourhood {
+    uint index[NEIGHBOURS];
+    vec2 steps[NEIGHBOURS];
+};
+
+Neighbourhood neighbourhood(PolarMap map, uint eye, ivec2 place) {
+    Neighbourhood n;
+    [[unroll]] for (int i = 0; i < NEIGHBOURS; ++i) {
+        int ring = i < 2 ? 0 : i < 4 ? -1 : 1;
+        float along = ((i & 1) == 0 ? -1.0 : 1.0) * (ring == 0 ? 1.0 : 0.5);
+        int radial = clamp(place.x + ring, 0, int(map.width) - 1);
+        float offset = polar_ring_start(uint(place.x)) - polar_ring_start(uint(radial));
+        n.index[i] = sample_at(map, eye, radial, place.y + int(round(along + offset)));
+        n.steps[i] = vec2(ring, along);
+    }
+    return n;
 }
 
 float sample_eccentricity(PolarMap map, uint radial) {

@@ -1,16 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Second pass of the history stage: takes the noise of shadows out of one frame. Only how much light arrives is
-// averaged, over neighbours that saw the same surface, so that textures and mirror images stay as they are.
+// Second pass of the history stage: takes noise out of one frame. Of shadows only how much light arrives is averaged,
+// over neighbours that saw the same surface, so that textures and mirror images stay as they are.
 #include "shaders/render/history.glsl"
+#include "shaders/render/vectors.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { HistoryPush push; };
 
-const int REACH = 2;         // rings
-const float SIGMA = 1.25;    // samples, in the periphery
+const int REACH = 3;         // rings
+const float SIGMA = 1.75;    // samples, in the periphery
 const float SLACK = 0.02;
+// What samples on other sides of the same thing count: something where a lone one met a detail smaller than a sample.
+const float OTHER_SIDE = 0.1;
 
 vec3 smoothed_visibility(PolarMap map, uint eye, ivec2 place, SampleGuide own, float strength) {
     SampleGuideArray guides = SampleGuideArray(push.guides);
@@ -30,13 +33,27 @@ vec3 smoothed_visibility(PolarMap map, uint eye, ivec2 place, SampleGuide own, f
             if (ring == 0 && along == 0.0) continue;
             SampleGuide other = guides.at[sample_at(map, eye, radial, place.y + int(round(along + offset)))];
             vec2 steps = vec2(ring, along);
-            if (!same_surface(plane, own.id, steps, other, SLACK)) continue;
+            if (other.id != own.id) continue;
             float w = strength * exp(-falloff * dot(steps, steps));
+            if (!same_surface(plane, own.id, steps, other, SLACK)) w *= OTHER_SIDE;
             sum += w * unpack_visibility(other.visibility);
             weight += w;
         }
     }
     return sum / weight;
+}
+
+// A highlight smaller than a sample, such as a mirrored lamp's on something round, is met by one now and by none then,
+// and would flash as large as a sample. A lone one is as bright as its neighbours, or white.
+vec3 without_flash(PolarMap map, uint eye, ivec2 place, vec3 radiance, float strength) {
+    float own = greatest(radiance), around = push.white;
+    if (own <= around) return radiance;
+    Neighbourhood n = neighbourhood(map, eye, place);
+    [[unroll]] for (int i = 0; i < NEIGHBOURS; ++i) {
+        LightSample other = LightSampleArray(push.samples).at[n.index[i]];
+        if (other.valid != 0.0) around = max(around, greatest(other.radiance));
+    }
+    return mix(radiance, radiance * min(around / own, 1.0), strength);
 }
 
 void main() {
@@ -67,6 +84,7 @@ void main() {
             }
         }
     }
+    if (strength > 0.0) light.radiance = without_flash(map, at.z, ivec2(at.xy), light.radiance, strength);
     smoothed.at[index] = pack_light(vec4(light.radiance, light.coverage));
     if (push.layers == 1) return;
     float seen = 1.0 - light.coverage;

@@ -1,5 +1,4 @@
 #version 460
-#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
 // Third pass of the history stage: blends a frame with the frames before it, followed to where they saw the same.
@@ -21,26 +20,6 @@ const float STILL = 0.02;
 const float DONE = 1.0 / 512.0;
 const float DARK = 1e-4;           // and what no display shows
 const float LEAST_HISTORY = 0.05;  // part of the four samples round the place that must hold
-
-// The nearest neighbours in a polar image, almost a hexagon, with their steps from the sample.
-const int NEIGHBOURS = 6;
-struct Neighbourhood {
-    uint index[NEIGHBOURS];
-    vec2 steps[NEIGHBOURS];
-};
-
-Neighbourhood neighbourhood(PolarMap map, uint eye, ivec2 place) {
-    Neighbourhood n;
-    [[unroll]] for (int i = 0; i < NEIGHBOURS; ++i) {
-        int ring = i < 2 ? 0 : i < 4 ? -1 : 1;
-        float along = ((i & 1) == 0 ? -1.0 : 1.0) * (ring == 0 ? 1.0 : 0.5);
-        int radial = clamp(place.x + ring, 0, int(map.width) - 1);
-        float offset = polar_ring_start(uint(place.x)) - polar_ring_start(uint(radial));
-        n.index[i] = sample_at(map, eye, radial, place.y + int(round(along + offset)));
-        n.steps[i] = vec2(ring, along);
-    }
-    return n;
-}
 
 // What is beside a sample at an edge that moves with it: there the samples of one frame fall on either side, and only
 // all frames together draw it smoothly.

@@ -52,6 +52,7 @@ struct HistoryPush {
     uint layers;              // 1 or 3
     uint flags;
     float blend;  // share of this frame's light where the history holds, 0 … 1
+    float white;  // radiance that is shown as white
 };
 
 FOVERAY_SHARED_END

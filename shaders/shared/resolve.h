@@ -26,12 +26,13 @@ struct ResolvePush {
     uint filter_kind;
     uint debug_view;
     uint layers;  // of `packed`
+    float white;  // radiance that is shown as white
 };
 
 FOVERAY_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(foveray::shared::ResolvePush) == 72);
+static_assert(sizeof(foveray::shared::ResolvePush) == 80);
 #endif
 
 #endif

@@ -1,5 +1,6 @@
 #include "render/history.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -317,6 +318,36 @@ TEST_F(HistoryTest, MovingObjectLeavesNoTrail) {
     const float behind = 0.5f + (x - 0.3f) / extent;
     EXPECT_GT(redness(picture, behind + 0.03f, behind + 0.15f), 0.9);
     EXPECT_LT(std::abs(redness(picture, behind - 0.17f, behind - 0.04f)), 0.01);
+}
+
+// Bright spots, smaller than the distance between samples and larger, pass over a dull wall.
+TEST_F(HistoryTest, HighlightsNeitherFlashNorHaveDarkRims) {
+    const scene::Scene scene = fences();
+    LightRig rig(device(), scene);
+    for (const float radius_degrees : {0.3f, 3.0f}) {
+        int met = 0;
+        for (int i = 0; i < 24; ++i) {
+            const vec3 middle = transform_direction(turned(0.1f * static_cast<float>(i)), {0, 0, -1});
+            Shot shot = side_shot(0.0f);
+            shot.read_samples = true;  // the painter wants them
+            shot.time = i * period;
+            shot.paint = [&](vec3 direction, float) {
+                const bool bright = glm::dot(direction, middle) > std::cos(radians(radius_degrees));
+                met += bright;
+                return shared::LightSample{
+                    vec3(bright ? 50.0f : 0.2f), 1.0f, vec3(1.0f), 3.0f, vec3(0.0f), 1.0f};
+            };
+            const auto picture = radiance_of(rig.render(shot).views[0]);
+            const auto [least, most] = std::ranges::minmax(picture.pixels);
+            EXPECT_GT(least, 0.16f) << radius_degrees << " degrees, frame " << i;
+            if (radius_degrees < 1.0f) {
+                EXPECT_LT(most, 1.1f) << i;
+            } else {
+                EXPECT_GT(most, 45.0f) << i;
+            }
+        }
+        EXPECT_GT(met, 6);
+    }
 }
 
 TEST_F(HistoryTest, GazeJumpsDoNotSmear) {
