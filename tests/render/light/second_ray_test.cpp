@@ -1,6 +1,7 @@
 // Ambient occlusion, refraction, reflections of reflections, against closed forms.
 #include <cmath>
 
+#include "app/offscreen/offscreen.h"
 #include "tests/fakes/gpu_fixture.h"
 #include "tests/render/light/light_rig.h"
 #include "tests/render/light/test_scene.h"
@@ -147,6 +148,36 @@ TEST_F(SecondRayTest, ThinSheetsTintWhatTheViewerSees) {
     EXPECT_LT(glm::length(over_real.radiance), 0.01f);
     EXPECT_NEAR(over_real.coverage, 0.04f, 0.01f);
     EXPECT_LT(glm::length(over_real.transmittance - tint), 0.01f);
+}
+
+// Without a real surface in the scene too: the compositor shows what stands behind, here the environment,
+// through it.
+TEST_F(SecondRayTest, ThinSheetsTintThePictureBehind) {
+    const vec3 tint(0.9f, 0.5f, 0.2f), behind(0.5f, 0.6f, 0.7f);
+    TestScene world(behind);
+    scene::Material sheet = glass(tint, 1.5f, false);
+    sheet.double_sided = true;
+    world.add(scene::make_rectangle({1.0f, 3.0f}), sheet,
+              {glm::angleAxis(0.5f * pi, vec3(1.0f, 0.0f, 0.0f)), {-1.0f, 0.0f, -1.0f}});
+    const scene::Scene scene = world.build();
+    app::Offscreen offscreen(device(), scene);
+    app::Shot shot;
+    shot.views = {square_view(10.0f, 32)};
+    shot.acuity = {.a = 60.0f, .b = 1.0f, .cap_ppd = 4.0f, .outer_degrees = 30.0f};
+    shot.settings.tone_mapping = "none";
+    for (const bool every_pixel : {true, false}) {
+        shot.every_pixel = every_pixel;
+        offscreen.draw(shot);
+        const Image picture = offscreen.picture(0);
+        for (int c = 0; c < 3; ++c) {
+            const auto shown = [&](std::uint32_t x) {
+                return linear_from_srgb(static_cast<float>(picture.at(x, 16)[c]) / 255.0f);
+            };
+            EXPECT_NEAR(shown(28), behind[c], 0.01f) << every_pixel << " beside the sheet";
+            // Of the sheet's front a twentieth at most is mirrored.
+            EXPECT_NEAR(shown(4), behind[c] * (0.045f + 0.96f * tint[c]), 0.02f * behind[c]) << every_pixel;
+        }
+    }
 }
 
 // Between two mirrors each ray goes on as often as it may.
