@@ -59,7 +59,7 @@ vec4 kernel_taps(float f) {
 struct Filter {
     Filtered sum;
     vec3 least, most;  // of the samples that the kernel's middle covers
-    vec3 brightest;    // of all samples
+    float brightest;   // of all
 };
 
 void add_polar(inout Filter f, uint index, uint count, float radial_weight, float angular_weight) {
@@ -69,11 +69,11 @@ void add_polar(inout Filter f, uint index, uint count, float radial_weight, floa
     float weight = radial_weight * angular_weight;
     f.sum.weight += weight;
     f.sum.radiance += weight * radiance;
-    f.brightest = max(f.brightest, radiance.rgb);
     if (push.layers > 1) {
         f.sum.transmitted += weight * unpack_halves(light.at[count + index]).rgb;
         f.sum.added += weight * unpack_halves(light.at[2 * count + index]).rgb;
     }
+    f.brightest = max(f.brightest, greatest(radiance.rgb));
     if (radial_weight > 0.0 && angular_weight > 0.0) {
         f.least = min(f.least, radiance.rgb);
         f.most = max(f.most, radiance.rgb);
@@ -83,7 +83,7 @@ void add_polar(inout Filter f, uint index, uint count, float radial_weight, floa
 // `place`: radial position in samples, sample centres at whole numbers, and angular position from angle 0; `stretch`:
 // samples a pixel, at least 1, in both directions.
 Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
-    Filter f = Filter(Filtered(vec4(0.0), vec3(0.0), vec3(0.0), 0.0), vec3(LARGEST_HALF), vec3(0.0), vec3(0.0));
+    Filter f = Filter(Filtered(vec4(0.0), vec3(0.0), vec3(0.0), 0.0), vec3(LARGEST_HALF), vec3(0.0), 0.0);
     int width = int(map.width), height = int(map.height);
     uint count = 2 * map.width * map.height;
     bool stretched = any(greaterThan(stretch, vec2(1.0)));
@@ -112,7 +112,7 @@ Filtered filter_polar(PolarMap map, uint eye, vec2 place, vec2 stretch) {
         }
     }
     // The kernel undershoots beside a highlight brighter than white, which would ring it with black.
-    if (greatest(f.brightest) > push.white && f.sum.weight > 0.0) {
+    if (f.brightest > push.white && f.sum.weight > 0.0) {
         f.sum.radiance.rgb = clamp(f.sum.radiance.rgb, f.sum.weight * f.least, f.sum.weight * f.most);
     }
     if (push.layers == 1) f.sum.transmitted = vec3(f.sum.weight - f.sum.radiance.a);

@@ -72,6 +72,29 @@ TEST_F(ResolveTest, RebuildsASmoothPicture) {
     }
 }
 
+// Nor does the farthest reach of the kernel, where it is below zero, leave black beside what is far brighter
+// than white.
+TEST_F(ResolveTest, HighlightsHaveNoDarkRings) {
+    const scene::Scene scene = closed_room();
+    LightRig rig(device(), scene);
+    for (const std::uint32_t pixels : {33u, 160u}) {
+        Shot shot = polar_shot(40.0f, pixels);
+        shot.fovea.direction = glm::normalize(vec3(0.3f, -0.2f, -1.0f));
+        shot.paint = [](vec3 direction, float distance) {
+            const bool lamp = glm::distance(direction, glm::normalize(vec3(-0.2f, 0.2f, -1.0f))) < 0.05f;
+            return shared::LightSample{
+                vec3(lamp ? 200.0f : 0.3f), 1.0f, vec3(0.0f), distance, vec3(0.0f), 1.0f};
+        };
+        const Picture picture = rig.render(shot).views[0];
+        int bright = 0;
+        for (const Pixel& pixel : picture.pixels) {
+            EXPECT_GE(pixel.radiance.x, 0.299f);
+            bright += pixel.radiance.x > 1.0f;
+        }
+        EXPECT_GT(bright, 1);
+    }
+}
+
 TEST_F(ResolveTest, FiltersAllLayersAlikeAndWeighsTheRealByWhatIsSeen) {
     const scene::Scene scene = closed_room();
     LightRig rig(device(), scene);
