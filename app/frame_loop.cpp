@@ -76,7 +76,8 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
     live_.accel().record(cmd, slot, scene, live_.pipeline(),
                          {frame, world_from_stage_, fovea, *acuity_, settings, every_pixel_});
     const auto room = room_.record(cmd, slot, room_moment(frame), settings);
-    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
+    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings,
+                                             live_.pipeline().shapes().follow_time(live_.scene())});
     const auto grid = sampling_.record(
         cmd, slot,
         {frame, world_from_stage_, fovea, headset_.hidden_meshes(), *acuity_, settings, every_pixel_});
@@ -116,7 +117,7 @@ void FrameLoop::show(render::LiveScene::Next next) {
     live_.show(ring_, std::move(next));
     world_from_stage_ = live_.scene().world_from_stage;
     room_.set_surfaces(room_proxies(live_.scene()));
-    probes_.set_grid(live_.scene().probes);
+    probes_.set_scene(live_.scene());
 }
 
 passthrough::RoomMoment FrameLoop::room_moment(const Frame& frame) {

@@ -132,6 +132,7 @@ void SceneReload::reload_shapes(const std::vector<fs::path>& changed) {
     render::UserShaders shaders = shaders_;
     std::vector<fs::path> really;
     for (const fs::path& file : changed) {
+        if (stop_) return;
         const scene::UserShapeId id = *shape_of(file);
         const scene::UserShapeCode code = scene::read_user_shape(file);
         if (code.text == shape_texts_[id]) continue;

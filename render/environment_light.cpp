@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <glm/gtc/packing.hpp>
 
@@ -55,6 +56,21 @@ gpu::SamplerInfo panorama_sampler() {
     sampler.v = vk::SamplerAddressMode::eClampToEdge;
     return sampler;
 }
+
+/// An entry of the table while this lives.
+class Lent {
+  public:
+    Lent(gpu::TextureTable& table, vk::ImageView view)
+        : table_(table), index_(table.add(view, panorama_sampler())) {}
+    ~Lent() { table_.remove(index_); }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    std::uint32_t index() const { return index_; }
+
+  private:
+    gpu::TextureTable& table_;
+    std::uint32_t index_;
+};
 
 vk::Extent2D level_extent(vk::Extent2D base, std::uint32_t level) {
     return {std::max(1u, base.width >> level), std::max(1u, base.height >> level)};
@@ -133,7 +149,7 @@ void EnvironmentLight::prefilter(const gpu::Device& device, const scene::Environ
     gpu::Uploader uploader(device);
     const gpu::Image source = uploader.image("environment source", info, gpu::range_bytes(picture.texels));
     uploader.flush();
-    const std::uint32_t source_index = table_.add(source.view(), panorama_sampler());
+    std::optional<Lent> lent(std::in_place, table_, source.view());
 
     std::vector<vk::DeviceSize> offsets;
     vk::DeviceSize size = 0;
@@ -158,7 +174,7 @@ void EnvironmentLight::prefilter(const gpu::Device& device, const scene::Environ
             const float roughness = static_cast<float>(level) / static_cast<float>(levels - 1);
             const shared::PrefilterPush push{texels.address() + offsets[level - 1],
                                              {extent.width, extent.height},
-                                             source_index,
+                                             lent->index(),
                                              roughness,
                                              samples_per_texel};
             pipeline.dispatch(cmd, push, {extent.width, extent.height, 1}, {8, 8, 1});
@@ -181,7 +197,7 @@ void EnvironmentLight::prefilter(const gpu::Device& device, const scene::Environ
         gpu::transition(cmd.vk(), image_.vk(), Access::TransferWrite, Layout::eTransferDstOptimal,
                         Access::RayTracingRead, Layout::eShaderReadOnlyOptimal);
     });
-    table_.remove(source_index);
+    lent.reset();
     shared_.texture = table_.add(image_.view(), panorama_sampler());
     shared_.level_count = static_cast<float>(levels);
 }

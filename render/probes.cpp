@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/gpu_lights.h"
 #include "render/grow.h"
@@ -98,6 +99,11 @@ ProbeStage::ProbeStage(const gpu::Device& device, const gpu::TextureTable& textu
       update_(device, "render/probe_update.comp", textures, sizeof(shared::ProbePush)),
       wanted_grid_(scene.probes) {}
 
+void ProbeStage::set_scene(const scene::Scene& scene) {
+    wanted_grid_ = scene.probes;
+    scene_changed_ = true;
+}
+
 void ProbeStage::place(const gpu::Commands& cmd) {
     for (gpu::Buffer* old :
          {&field_buffer_, &states_, &light_, &depth_, &light_sums_, &depth_sums_, &rays_, &directions_}) {
@@ -153,7 +159,9 @@ float ProbeStage::advance(const ProbeInput& input) {
     const float passed = last_time_ ? static_cast<float>(to_seconds(changes.time - *last_time_)) : 0.0f;
     const float seconds = passed > 0.0f ? std::min(passed, longest_frame) : shortest_frame;
     std::vector<std::byte> lighting = lighting_of(input);
-    const bool light = lighting != lighting_, geometry = geometry_changed(changes);
+    const bool light = lighting != lighting_, other_time = last_time_ && changes.time != *last_time_;
+    const bool geometry = std::exchange(scene_changed_, false) || geometry_changed(changes) ||
+                          (input.shapes_follow_time && other_time);
     lighting_ = std::move(lighting);
     since_start_ = last_time_ ? since_start_ + seconds : 0.0f;
     since_geometry_change_ = geometry ? 0.0f : since_geometry_change_ + seconds;

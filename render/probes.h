@@ -24,6 +24,7 @@ struct ProbeInput {
     vk::DeviceAddress scene;     // shared::SceneData
     vk::DeviceAddress counters;  // RayCounters
     const Settings& settings;
+    bool shapes_follow_time = false;  // ShapeTypes::follow_time
 };
 
 /// Dynamic diffuse global illumination on the scene's grid of probes: shaders/shared/probes.h says after
@@ -40,8 +41,9 @@ class ProbeStage {
     ProbeStage(const gpu::Device& device, const gpu::TextureTable& textures, const scene::Scene& scene,
                const engine::SceneRayTracer& tracer, engine::RayGeneration probes);
 
-    /// From the next record() on. Where probes stay where they were, they keep what they know.
-    void set_grid(const std::optional<scene::ProbeGrid>& grid) { wanted_grid_ = grid; }
+    /// From the next record() on: another scene, or other code of its users' shapes. Where probes stay where
+    /// they were, they keep what they know, and look for what has changed.
+    void set_scene(const scene::Scene& scene);
 
     /// Stage "probes". The tracer must be prepared for the frame. Orders itself after earlier frames' use of
     /// the field; ray tracing and compute shaders recorded afterwards see this frame's.
@@ -70,6 +72,7 @@ class ProbeStage {
     shared::ProbeField field_{};
     gpu::Buffer field_buffer_, states_, light_, depth_, light_sums_, depth_sums_, rays_, directions_;
 
+    bool scene_changed_ = false;
     std::uint32_t ray_count_ = 0;
     std::uint32_t frame_ = 0;
     std::optional<Nanoseconds> last_time_;

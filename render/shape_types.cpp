@@ -122,6 +122,11 @@ ShapeTypes::Geometry ShapeTypes::geometry(const scene::Shape& shape, std::span<c
     return SceneProgram::geometry(types_.sphere, {header, v[0], 0});
 }
 
+bool ShapeTypes::follow_time(const scene::Scene& scene) const {
+    return std::ranges::any_of(
+        scene.shapes, [&](const scene::Shape& shape) { return uses_time(shape) && !shape.user_time; });
+}
+
 bool ShapeTypes::uses_time(const scene::Shape& shape) const {
     return shape.kind == ShapeKind::User && user_uses_time_[shape.user];
 }

@@ -39,6 +39,8 @@ class ShapeTypes {
                       const shared::ShapeHeader& header, const GpuShapes& uploaded, float seconds) const;
     /// The record changes with session time, whether its values do or not.
     bool uses_time(const scene::Shape& shape) const;
+    /// Some of the scene's shapes change with the session's time, though none of their values does.
+    bool follow_time(const scene::Scene& scene) const;
 
   private:
     struct Declared {

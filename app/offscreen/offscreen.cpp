@@ -55,7 +55,7 @@ Offscreen::Offscreen(const gpu::Device& device, std::shared_ptr<const scene::Sce
 
 void Offscreen::show(render::LiveScene::Next next) {
     live_.show(ring_, std::move(next));
-    probes_.set_grid(live_.scene().probes);
+    probes_.set_scene(live_.scene());
 }
 
 std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
@@ -74,7 +74,8 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
     live_.accel().record(cmd, slot, scene, live_.pipeline(),
                          {frame, {}, fovea, shot.acuity, settings, shot.every_pixel});
     const auto room = room_.record(cmd, slot, {}, settings);
-    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings});
+    const auto probes = probes_.record(cmd, {changes, scene.scene_data, counters_.address(), settings,
+                                             live_.pipeline().shapes().follow_time(live_.scene())});
     const auto grid =
         sampling_.record(cmd, slot, {frame, {}, fovea, shot.hidden, shot.acuity, settings, shot.every_pixel});
     render::Surfaces hits;
