@@ -17,6 +17,7 @@
 #include "xr/simulator/instance.h"
 #include "xr/simulator/lifecycle.h"
 #include "xr/simulator/vulkan_device.h"
+#include "xr/simulator/window_feed.h"
 
 namespace foveray::simulator {
 
@@ -65,11 +66,14 @@ class Session : public Object {
     /// XR_SUCCESS, or XR_FRAME_DISCARDED when a begun frame was not ended.
     XrResult begin_frame();
     void end_frame(const XrFrameEndInfo& info);
+    /// Waits until nobody reads the swapchain's images but the client.
+    void release_images(const Swapchain& swapchain);
 
   private:
     void announce(XrSessionState state);
     void play_script(const FrameTime& frame);
     void change_visibility_mask(bool has_mask);
+    void make_compositor();
     void show(const FrameTime& frame, XrViewConfigurationType configuration, const XrFrameEndInfo& info);
 
     std::shared_ptr<Instance> instance_;
@@ -77,8 +81,9 @@ class Session : public Object {
     DebugLabels labels_;
     Devices devices_;
     Inputs inputs_;
-    std::optional<Compositor> compositor_;  // when something is captured
+    std::optional<Compositor> compositor_;  // when something is captured or shown in a window
     std::optional<Capture> capture_;
+    std::optional<WindowFeed> window_;
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;

@@ -122,6 +122,7 @@ std::uint32_t Swapchain::acquire() {
 void Swapchain::wait() {
     const std::lock_guard lock(mutex_);
     verify(!acquired_.empty() && !waited_, XR_ERROR_CALL_ORDER_INVALID);
+    session_->release_images(*this);
     waited_ = true;
 }
 

@@ -162,10 +162,15 @@ TEST_F(SurfaceLayers, OnlyTheRectangleOfTheLayerOfTheArrayIsShown) {
                                                 {{{0, 0}, {64, 64}}, {0, 0, 255, 255}, 2},
                                                 {{{8, 24}, {20, 12}}, {10, 90, 30, 255}, 2}},
                                                VK_FORMAT_B8G8R8A8_SRGB, 3);
-    auto quad = make_quad(swapchain, 4.0f, 1.0f);
+    auto quad = make_quad(swapchain, 1.0f, 2.0f);
+    quad.pose.position.x = -0.0315f;  // where the left eye is
     quad.subImage = {swapchain, {{8, 24}, {20, 12}}, 2};
     show_opaque(quad);
-    expect_uniform(shown(0), {30, 90, 10});
+    const Image image = shown(0);
+    for (std::uint32_t y = 97; y < 159; ++y) {  // 96 and 159 are its edges
+        for (std::uint32_t x = 97; x < 159; ++x)
+            ASSERT_EQ(pixel(image, x, y), (Rgb{30, 90, 10})) << x << ' ' << y;
+    }
 }
 
 TEST_F(SurfaceLayers, FineDetailIsAveraged) {
