@@ -27,7 +27,7 @@ float linear_of(int byte) { return linear_from_srgb(static_cast<float>(byte) / 2
 void Composed::start(const std::map<std::string, std::string>& variables, XrViewConfigurationType type,
                      VulkanEnable enable) {
     auto all = variables;
-    all["CAPTURE"] = captures();
+    all.try_emplace("CAPTURE", captures());
     set_environment(all);
     auto extensions = all_extensions;
     extensions.push_back(enable == VulkanEnable::First

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#define GLFW_INCLUDE_GLEXT
 #include <GLFW/glfw3.h>
 
 #include "base/error.h"
@@ -38,6 +39,7 @@ PictureWindow::PictureWindow(const std::string& title) {
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_3) {
             self.shown_[0] = key != GLFW_KEY_2;
             self.shown_[1] = key != GLFW_KEY_1;
+            self.is_stale_ = true;
         }
         if (key == GLFW_KEY_R) self.reset_ = true;
         if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
@@ -45,6 +47,9 @@ PictureWindow::PictureWindow(const std::string& title) {
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
         object_of(window).scrolled_ += static_cast<float>(steps);
     });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { object_of(window).is_stale_ = true; });
+    glfwSetFramebufferSizeCallback(window_,
+                                   [](GLFWwindow* window, int, int) { object_of(window).is_stale_ = true; });
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glGenTextures(2, textures_);
@@ -52,6 +57,8 @@ PictureWindow::PictureWindow(const std::string& title) {
         glBindTexture(GL_TEXTURE_2D, texture);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     glEnable(GL_TEXTURE_2D);
 }
@@ -64,6 +71,7 @@ PictureWindow::~PictureWindow() {
 bool PictureWindow::is_closing() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
 
 void PictureWindow::set_picture(int eye, uvec2 size, const std::uint8_t* bytes) {
+    is_stale_ = true;
     const auto width = static_cast<GLsizei>(size.x), height = static_cast<GLsizei>(size.y);
     glBindTexture(GL_TEXTURE_2D, textures_[eye]);
     if (size != sizes_[eye]) {
@@ -139,7 +147,7 @@ void PictureWindow::read_input() {
 void PictureWindow::update() {
     glfwWaitEventsTimeout(patience);
     read_input();
-    draw();
+    if (std::exchange(is_stale_, false)) draw();
 }
 
 }  // namespace foveray::simulator

@@ -21,7 +21,7 @@ class PictureWindow {
 
     /// Rows from the top, four sRGB bytes a pixel.
     void set_picture(int eye, uvec2 size, const std::uint8_t* bytes);
-    /// Waits a moment for the user, then draws.
+    /// Waits a moment for the user, then draws what has changed.
     void update();
     bool is_closing() const;
 
@@ -50,7 +50,7 @@ class PictureWindow {
     bool shown_[2]{true, true};
     vec2 pointer_{0.0f};
     float scrolled_ = 0.0f;
-    bool reset_ = false;
+    bool reset_ = false, is_stale_ = true;
     Input input_;
 };
 
