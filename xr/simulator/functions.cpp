@@ -6,8 +6,8 @@
 namespace foveray::simulator {
 
 const FunctionEntry* find_function(std::string_view name) {
-#define FOVERAY_ENTRY(symbol, extension) \
-    FunctionEntry{#symbol, reinterpret_cast<PFN_xrVoidFunction>(&symbol), extension},
+#define FOVERAY_ENTRY(symbol, feature) \
+    FunctionEntry{#symbol, reinterpret_cast<PFN_xrVoidFunction>(&symbol), feature},
     static const auto table = [] {
         std::array entries{FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_ENTRY)};
         std::ranges::sort(entries, {}, &FunctionEntry::name);

@@ -9,15 +9,20 @@
 namespace foveray::simulator {
 namespace {
 
+HeadsetProfile read_profile(const Options& options) {
+    if (!options.profile.empty()) return read_headset_profile(options.profile);
+    return read_headset_profile(options.session.empty() ? "ci" : read_session(options.session).headset);
+}
+
 Script make_script(const Options& options) {
-    if (options.session.empty()) {
-        return Script(read_headset_profile(options.profile.empty() ? "ci" : options.profile));
-    }
+    if (options.session.empty()) return Script(read_profile(options));
     foveray::Session session = read_session(options.session);
     HeadsetProfile profile =
         read_headset_profile(options.profile.empty() ? session.headset : options.profile);
     return Script(std::move(profile), std::move(session));
 }
+
+bool has_focus_display(const HeadsetProfile& profile) { return profile.views.size() == 4; }
 
 }  // namespace
 
@@ -36,25 +41,35 @@ std::vector<Extension> supported_extensions() {
         {XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME, XR_EXT_eye_gaze_interaction_SPEC_VERSION},
         {XR_EXT_HAND_TRACKING_EXTENSION_NAME, XR_EXT_hand_tracking_SPEC_VERSION},
         {XR_MND_HEADLESS_EXTENSION_NAME, XR_MND_headless_SPEC_VERSION},
-        {XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_quad_views_SPEC_VERSION},
-        {XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME, XR_VARJO_foveated_rendering_SPEC_VERSION},
     };
-    if (time_mode() == TimeMode::Real) {
+    const Options options = read_options();
+    if (options.time == TimeMode::Real) {
         extensions.push_back(
             {XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, XR_KHR_convert_timespec_time_SPEC_VERSION});
+    }
+    if (has_focus_display(read_profile(options))) {
+        extensions.push_back({XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_quad_views_SPEC_VERSION});
+        extensions.push_back(
+            {XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME, XR_VARJO_foveated_rendering_SPEC_VERSION});
+    }
+    if (has_openxr_1_1) {
+        extensions.push_back({XR_KHR_LOCATE_SPACES_EXTENSION_NAME, XR_KHR_locate_spaces_SPEC_VERSION});
+        extensions.push_back({XR_KHR_MAINTENANCE1_EXTENSION_NAME, XR_KHR_maintenance1_SPEC_VERSION});
+        extensions.push_back({XR_EXT_LOCAL_FLOOR_EXTENSION_NAME, XR_EXT_local_floor_SPEC_VERSION});
+        extensions.push_back({XR_EXT_USER_PRESENCE_EXTENSION_NAME, XR_EXT_user_presence_SPEC_VERSION});
     }
     return extensions;
 }
 
-Instance::Instance(std::set<std::string, std::less<>> extensions)
-    : extensions_(std::move(extensions)),
+Instance::Instance(std::set<std::string, std::less<>> features)
+    : features_(std::move(features)),
       options_(read_options()),
       script_(make_script(options_)),
       clock_(options_.time, script_.rate_hz()) {}
 
 std::vector<XrViewConfigurationType> Instance::view_configurations() const {
     std::vector<XrViewConfigurationType> types;
-    if (has(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME) && profile().views.size() == 4) {
+    if (has(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME) && has_focus_display(profile())) {
         types.push_back(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO);
     }
     types.push_back(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);

@@ -16,6 +16,7 @@
 #include "xr/simulator/events.h"
 #include "xr/simulator/frame_clock.h"
 #include "xr/simulator/handles.h"
+#include "xr/simulator/openxr_1_1.h"
 #include "xr/simulator/options.h"
 #include "xr/simulator/paths.h"
 #include "xr/simulator/script.h"
@@ -29,11 +30,12 @@ struct Extension {
     std::string_view name;
     std::uint32_t version;
 };
-/// All that the runtime offers; it depends on FOVERAY_SIMULATOR_TIME.
+/// All that the runtime offers; it depends on the variables: the kind of time, and the headset.
 std::vector<Extension> supported_extensions();
 
-/// OpenXR 1.0 with the patch number of the headers.
-constexpr XrVersion supported_api_version = XR_MAKE_VERSION(1, 0, XR_VERSION_PATCH(XR_CURRENT_API_VERSION));
+/// OpenXR 1.1 where the headers have it, else 1.0, with the patch number of the headers.
+constexpr XrVersion supported_api_version =
+    XR_MAKE_VERSION(1, has_openxr_1_1 ? 1 : 0, XR_VERSION_PATCH(XR_CURRENT_API_VERSION));
 
 struct SuggestedBinding {
     std::shared_ptr<Action> action;
@@ -48,11 +50,12 @@ class Instance : public Object {
     static constexpr XrSystemId system_id = 1;
 
     /// Throws Fault when the variables, the profile or the session are at fault.
-    explicit Instance(std::set<std::string, std::less<>> extensions);
+    explicit Instance(std::set<std::string, std::less<>> features);
     /// Lets go of the suggested actions, which hold the instance.
     void on_destroy() override;
 
-    bool has(std::string_view extension) const { return extensions_.contains(extension); }
+    /// Features are extensions and `openxr_1_1`; "" is the core of 1.0, which every instance has.
+    bool has(std::string_view feature) const { return feature.empty() || features_.contains(feature); }
     const Options& options() const { return options_; }
     const Script& script() const { return script_; }
     const HeadsetProfile& profile() const { return script_.profile(); }
@@ -87,7 +90,7 @@ class Instance : public Object {
     void release_session();
 
   private:
-    std::set<std::string, std::less<>> extensions_;
+    std::set<std::string, std::less<>> features_;
     Options options_;
     Script script_;
     FrameClock clock_;

@@ -22,6 +22,8 @@ std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
         {"head_tracking_gained", EventKind::HeadGained},
         {"visibility_mask_removed", EventKind::MaskRemoved},
         {"visibility_mask_restored", EventKind::MaskRestored},
+        {"user_absent", EventKind::UserAbsent},
+        {"user_present", EventKind::UserPresent},
         {"recenter", EventKind::Recentre},
     };
     for (const auto& [known, kind] : names) {
@@ -129,6 +131,16 @@ bool Script::paused(Nanoseconds after, Nanoseconds until) const {
     });
 }
 
+bool Script::user_present_at(Nanoseconds time) const {
+    bool present = true;
+    for (const Event& event : events_) {
+        if (event.time > time) break;
+        if (event.kind == EventKind::UserAbsent) present = false;
+        if (event.kind == EventKind::UserPresent) present = true;
+    }
+    return present;
+}
+
 bool Script::has_visibility_mask_at(Nanoseconds time) const {
     bool has_mask = true;
     for (const Event& event : events_) {
@@ -152,6 +164,12 @@ Pose Script::upright_head_at(Nanoseconds time) const {
 Pose Script::stage_from_local_at(Nanoseconds time) const {
     const auto recentred = recentrings(-1, time);
     return upright_head_at(recentred.empty() ? 0 : recentred.back());
+}
+
+Pose Script::stage_from_local_floor_at(Nanoseconds time) const {
+    Pose floor = stage_from_local_at(time);
+    floor.position.y = 0.0f;
+    return floor;
 }
 
 std::vector<Nanoseconds> Script::recentrings(Nanoseconds after, Nanoseconds until) const {

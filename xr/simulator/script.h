@@ -49,10 +49,14 @@ class Script {
     bool session_lost_at(Nanoseconds time) const;
     /// The session is asked to pause in (after, until].
     bool paused(Nanoseconds after, Nanoseconds until) const;
+    /// Somebody wears the headset.
+    bool user_present_at(Nanoseconds time) const;
     /// The profile's hidden area is told to clients.
     bool has_visibility_mask_at(Nanoseconds time) const;
     /// The local space: upright, at the head's place when the session began or was last recentred.
     Pose stage_from_local_at(Nanoseconds time) const;
+    /// The same place and heading on the stage's floor.
+    Pose stage_from_local_floor_at(Nanoseconds time) const;
     /// Times of recentring in (after, until].
     std::vector<Nanoseconds> recentrings(Nanoseconds after, Nanoseconds until) const;
 
@@ -69,6 +73,8 @@ class Script {
         HeadGained,
         MaskRemoved,
         MaskRestored,
+        UserAbsent,
+        UserPresent,
         Recentre
     };
     struct Event {

@@ -50,6 +50,7 @@ void Session::announce(XrSessionState state) {
 void Session::begin(XrViewConfigurationType configuration) {
     const std::lock_guard lock(mutex_);
     lifecycle_.begin();
+    announce_presence();
     configuration_ = configuration;
     view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
     waited_.reset();
@@ -84,16 +85,35 @@ void Session::change_visibility_mask(bool has_mask) {
     }
 }
 
+void Session::announce_recentring(XrReferenceSpaceType type, Nanoseconds time,
+                                  const Pose& previous_from_next) {
+    instance_->events().push(XrEventDataReferenceSpaceChangePending{
+        XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this), type,
+        instance_->clock().time_of(time), XR_TRUE, to_xr(previous_from_next)});
+}
+
+/// XR_EXT_user_presence: when a session begins, and at each change while it runs.
+void Session::announce_presence() {
+    if (!instance_->has(XR_EXT_USER_PRESENCE_EXTENSION_NAME)) return;
+    instance_->events().push(XrEventDataUserPresenceChangedEXT{XR_TYPE_EVENT_DATA_USER_PRESENCE_CHANGED_EXT,
+                                                               nullptr, handle_of(*this), user_present_});
+}
+
 void Session::play_script(const FrameTime& frame) {
     const Script& script = instance_->script();
     const Nanoseconds time = instance_->clock().session_time(frame.display_time);
     for (const Nanoseconds recentred : script.recentrings(played_until_, time)) {
-        const Pose previous = script.stage_from_local_at(recentred - 1);
-        const Pose next = script.stage_from_local_at(recentred);
-        instance_->events().push(XrEventDataReferenceSpaceChangePending{
-            XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this),
-            XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
-            to_xr(inverse(previous) * next)});
+        announce_recentring(
+            XR_REFERENCE_SPACE_TYPE_LOCAL, recentred,
+            inverse(script.stage_from_local_at(recentred - 1)) * script.stage_from_local_at(recentred));
+        if (!instance_->has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)) continue;
+        announce_recentring(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR, recentred,
+                            inverse(script.stage_from_local_floor_at(recentred - 1)) *
+                                script.stage_from_local_floor_at(recentred));
+    }
+    if (script.user_present_at(time) != user_present_) {
+        user_present_ = !user_present_;
+        if (lifecycle_.running()) announce_presence();
     }
     const bool paused = script.paused(played_until_, time);
     played_until_ = time;

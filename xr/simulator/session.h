@@ -67,6 +67,8 @@ class Session : public Object {
     void announce(XrSessionState state);
     void play_script(const FrameTime& frame);
     void change_visibility_mask(bool has_mask);
+    void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
+    void announce_presence();
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
@@ -85,6 +87,7 @@ class Session : public Object {
     bool destroyed_ = false, waiting_ = false, has_frames_ = false;
     std::optional<FrameTime> waited_, begun_;
     Nanoseconds played_until_ = -1;  // session time
+    bool user_present_ = true;
 };
 
 }  // namespace foveray::simulator

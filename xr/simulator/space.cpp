@@ -33,7 +33,11 @@ Placement Space::place_origin(XrTime time) const {
             case XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO:
                 return session_->devices().place_rendering_gaze(time);
             default:
-                return {Carrier::Stage, {}, all_location_flags, 0};
+                return {Carrier::Stage,
+                        *reference == XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR
+                            ? script.stage_from_local_floor_at(clock.session_time(time))
+                            : Pose{},
+                        all_location_flags, 0};
         }
     }
     const auto& action = std::get<ActionSource>(origin_);

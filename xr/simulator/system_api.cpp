@@ -47,6 +47,11 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetSystemProperties(XrInstance instance, XrSyst
             hands && object->has(XR_EXT_HAND_TRACKING_EXTENSION_NAME)) {
             hands->supportsHandTracking = XR_TRUE;
         }
+        if (auto* presence = find_output<XrSystemUserPresencePropertiesEXT>(
+                properties->next, XR_TYPE_SYSTEM_USER_PRESENCE_PROPERTIES_EXT);
+            presence && object->has(XR_EXT_USER_PRESENCE_EXTENSION_NAME)) {
+            presence->supportsUserPresence = XR_TRUE;
+        }
         if (auto* foveated = find_output<XrSystemFoveatedRenderingPropertiesVARJO>(
                 properties->next, XR_TYPE_SYSTEM_FOVEATED_RENDERING_PROPERTIES_VARJO);
             foveated && object->has(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME)) {
