@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"render/user_shapes",
      {"base", "shaders/shared", "render/gpu", "render/scene", "render/engine", "render"}},
     {"xr/client", {"base", "render/gpu"}},
-    {"xr/simulator", {"base"}},
+    {"xr/simulator", {"base", "shaders/shared"}},
     {"passthrough/capture", {"base", "passthrough"}},
     {"passthrough", {"base", "shaders/shared", "render/gpu"}},
     {"app",

@@ -32,6 +32,14 @@ void read_frames(const std::string& text, Options& options) {
                     "write A:B for the frames from A up to B, B left out");
 }
 
+CaptureFormat read_capture_format() {
+    const std::string format = variable("FOVERAY_SIMULATOR_CAPTURE_FORMAT");
+    if (format.empty() || format == "png") return CaptureFormat::Png;
+    if (format == "raw") return CaptureFormat::Raw;
+    throw_bad_input("FOVERAY_SIMULATOR_CAPTURE_FORMAT=" + format, "is no format of captures",
+                    "use png or raw");
+}
+
 }  // namespace
 
 TimeMode time_mode() {
@@ -46,6 +54,8 @@ Options read_options() {
     options.profile = variable("FOVERAY_SIMULATOR_PROFILE");
     options.session = variable("FOVERAY_SIMULATOR_SESSION");
     options.capture = variable("FOVERAY_SIMULATOR_CAPTURE");
+    options.capture_format = read_capture_format();
+    options.background = parse_background(variable("FOVERAY_SIMULATOR_BACKGROUND"));
     options.time = time_mode();
     if (const std::string frames = variable("FOVERAY_SIMULATOR_CAPTURE_FRAMES"); !frames.empty()) {
         read_frames(frames, options);

@@ -5,9 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "xr/simulator/background.h"
+
 namespace foveray::simulator {
 
 enum class TimeMode { Virtual, Real };
+enum class CaptureFormat { Png, Raw };
 
 /// What the FOVERAY_SIMULATOR_* variables say; docs/simulator.md lists them.
 struct Options {
@@ -15,9 +18,11 @@ struct Options {
     std::filesystem::path session;
     TimeMode time = TimeMode::Real;
     std::filesystem::path capture;
+    CaptureFormat capture_format = CaptureFormat::Png;
     std::uint64_t first_captured_frame = 0;
     std::uint64_t end_captured_frame = UINT64_MAX;
     std::optional<std::uint32_t> gpu;
+    Background background;
 
     bool captures(std::uint64_t frame) const {
         return !capture.empty() && frame >= first_captured_frame && frame < end_captured_frame;

@@ -14,7 +14,15 @@ Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevic
       devices_(*instance_),
       inputs_(*instance_, devices_),
       lifecycle_([this](XrSessionState state) { announce(state); }) {
-    if (device_) capture_.emplace(instance_->options(), instance_->profile(), *device_);
+    const Options& options = instance_->options();
+    if (device_ && !options.capture.empty()) {
+        if (!device_->can_compute()) {
+            report("the queue family of the graphics binding takes no compute commands, which captures need");
+            throw Refusal{XR_ERROR_GRAPHICS_DEVICE_INVALID};
+        }
+        compositor_.emplace(*device_, options.background);
+        capture_.emplace(options, *device_);
+    }
     verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
 }
 
@@ -163,20 +171,36 @@ XrResult Session::begin_frame() {
     return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
+void Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
+                   const XrFrameEndInfo& info) {
+    SubmittedFrame submitted;
+    submitted.layers = read_layers(*this, info);
+    const Script& script = instance_->script();
+    if (!capture_ || !capture_->wants(frame.index) || script.ended(frame.index)) return;
+    submitted.blend_mode = info.environmentBlendMode;
+    submitted.index = frame.index;
+    submitted.display_time = frame.display_time;
+    submitted.stage_from_head =
+        script.head_at(instance_->clock().session_time(frame.display_time)).stage_from_head;
+    const HeadsetProfile& profile = instance_->profile();
+    const EyePictures shown = compositor_->compose(
+        submitted,
+        {eye_display(profile, configuration, Eye::Left), eye_display(profile, configuration, Eye::Right)});
+    capture_->write(frame.index, submitted.layers, shown);
+}
+
 void Session::end_frame(const XrFrameEndInfo& info) {
     const std::lock_guard end_lock(end_mutex_);
     std::unique_lock lock(mutex_);
     verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
     verify(begun_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const FrameTime frame = *begun_;
+    const XrViewConfigurationType configuration = configuration_;
     lock.unlock();
 
-    const Script& script = instance_->script();
-    if (!headless()) {  // which shows no layers
-        const std::vector<ProjectionLayer> layers = read_layers(*this, info);
-        if (capture_->wants(frame.index) && !script.ended(frame.index)) capture_->write(frame.index, layers);
-    }
+    if (!headless()) show(frame, configuration, info);  // which shows no layers
 
+    const Script& script = instance_->script();
     lock.lock();
     // Another thread may have begun the next frame meanwhile.
     if (begun_ && begun_->index == frame.index) begun_.reset();

@@ -10,6 +10,7 @@
 #include <openxr/openxr.h>
 
 #include "xr/simulator/capture.h"
+#include "xr/simulator/compositor.h"
 #include "xr/simulator/devices.h"
 #include "xr/simulator/handles.h"
 #include "xr/simulator/inputs.h"
@@ -24,7 +25,9 @@ class Session : public Object {
     using Handle = XrSession;
     static constexpr XrObjectType object_type = XR_OBJECT_TYPE_SESSION;
 
-    /// Without a device it is headless. Refuses with XR_ERROR_LIMIT_REACHED while the instance has another.
+    /// Without a device it is headless. Refuses with XR_ERROR_LIMIT_REACHED while the instance has another,
+    /// and with XR_ERROR_GRAPHICS_DEVICE_INVALID when frames are captured and the client's queue cannot
+    /// compose them.
     Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device);
     void on_destroy() override;
     /// Announces IDLE and READY; once, after the handle exists.
@@ -69,12 +72,14 @@ class Session : public Object {
     void change_visibility_mask(bool has_mask);
     void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
     void announce_presence();
+    void show(const FrameTime& frame, XrViewConfigurationType configuration, const XrFrameEndInfo& info);
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
     DebugLabels labels_;
     Devices devices_;
     Inputs inputs_;
+    std::optional<Compositor> compositor_;  // when something is captured
     std::optional<Capture> capture_;
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_

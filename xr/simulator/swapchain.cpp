@@ -34,9 +34,10 @@ VkImageCreateInfo image_info(const XrSwapchainCreateInfo& info) {
     image.arrayLayers = info.arraySize * info.faceCount;
     image.samples = static_cast<VkSampleCountFlagBits>(info.sampleCount);
     image.tiling = VK_IMAGE_TILING_OPTIMAL;
-    // The layout contract needs the attachment, captures need to read, and clients may always be copied from.
+    // The layout contract needs the attachment, composition and captures read, and clients may always be
+    // copied from.
     image.usage = vulkan_usage(info.usageFlags) | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                  VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                  VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                   (is_depth_format(format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                            : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     if (info.usageFlags & XR_SWAPCHAIN_USAGE_MUTABLE_FORMAT_BIT)
@@ -132,9 +133,19 @@ void Swapchain::release() {
     acquired_.pop_front();
 }
 
-VkImage Swapchain::shown() const {
+std::optional<std::uint32_t> Swapchain::shown() const {
     const std::lock_guard lock(mutex_);
-    return shown_ ? *images_[*shown_].image : VK_NULL_HANDLE;
+    return shown_;
+}
+
+VkImageView Swapchain::view(std::uint32_t index, std::uint32_t array_index) {
+    const std::lock_guard lock(mutex_);
+    VulkanOwned<VkImageView>& view = views_[{index, array_index}];
+    if (!*view) {
+        view = session_->device().create_view(image(index), format(), aspect(), array_index,
+                                              "simulator swapchain view");
+    }
+    return *view;
 }
 
 }  // namespace foveray::simulator
