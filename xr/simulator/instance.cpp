@@ -65,7 +65,9 @@ Instance::Instance(std::set<std::string, std::less<>> features)
     : features_(std::move(features)),
       options_(read_options()),
       script_(make_script(options_)),
-      clock_(options_.time, script_.rate_hz()) {}
+      clock_(options_.time, script_.rate_hz()) {
+    if (!options_.timing.empty()) timing_.emplace(options_.timing);
+}
 
 std::vector<XrViewConfigurationType> Instance::view_configurations() const {
     std::vector<XrViewConfigurationType> types;

@@ -20,6 +20,7 @@
 #include "xr/simulator/options.h"
 #include "xr/simulator/paths.h"
 #include "xr/simulator/script.h"
+#include "xr/simulator/timing_file.h"
 #include "xr/simulator/vulkan_device.h"
 
 namespace foveray::simulator {
@@ -60,6 +61,8 @@ class Instance : public Object {
     const Script& script() const { return script_; }
     const HeadsetProfile& profile() const { return script_.profile(); }
     FrameClock& clock() { return clock_; }
+    /// nullptr where none is kept.
+    TimingFile* timing() { return timing_ ? &*timing_ : nullptr; }
     PathTable& paths() { return paths_; }
 
     std::vector<XrViewConfigurationType> view_configurations() const;
@@ -94,6 +97,7 @@ class Instance : public Object {
     Options options_;
     Script script_;
     FrameClock clock_;
+    std::optional<TimingFile> timing_;
     PathTable paths_;
 
     EventQueue events_;

@@ -54,6 +54,7 @@ Options read_options() {
     options.profile = variable("FOVERAY_SIMULATOR_PROFILE");
     options.session = variable("FOVERAY_SIMULATOR_SESSION");
     options.capture = variable("FOVERAY_SIMULATOR_CAPTURE");
+    options.timing = variable("FOVERAY_SIMULATOR_TIMING");
     options.capture_format = read_capture_format();
     options.background = parse_background(variable("FOVERAY_SIMULATOR_BACKGROUND"));
     options.time = time_mode();

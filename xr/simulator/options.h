@@ -17,7 +17,7 @@ struct Options {
     std::string profile;  // empty: the session's headset, or "ci"
     std::filesystem::path session;
     TimeMode time = TimeMode::Real;
-    std::filesystem::path capture;
+    std::filesystem::path capture, timing;
     CaptureFormat capture_format = CaptureFormat::Png;
     std::uint64_t first_captured_frame = 0;
     std::uint64_t end_captured_frame = UINT64_MAX;

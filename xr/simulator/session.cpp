@@ -138,6 +138,7 @@ void Session::play_script(const FrameTime& frame) {
 }
 
 Session::WaitedFrame Session::wait_frame() {
+    const Nanoseconds called = TimingFile::now();
     std::unique_lock lock(mutex_);
     const auto verify_running = [&] {
         verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
@@ -158,6 +159,9 @@ Session::WaitedFrame Session::wait_frame() {
     verify_running();
     waited_ = frame;
     play_script(frame);
+    if (TimingFile* timing = instance_->timing()) {
+        timing->waited(frame, instance_->clock().session_time(frame.display_time), called);
+    }
     return {frame, lifecycle_.visible() && !headless()};
 }
 
@@ -167,16 +171,17 @@ XrResult Session::begin_frame() {
     verify(waited_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const bool discarded = begun_.has_value();
     begun_ = std::exchange(waited_, std::nullopt);
+    if (TimingFile* timing = instance_->timing()) timing->begun(*begun_);
     frame_taken_.notify_all();
     return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-void Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
-                   const XrFrameEndInfo& info) {
+std::optional<double> Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
+                                    const XrFrameEndInfo& info) {
     SubmittedFrame submitted;
     submitted.layers = read_layers(*this, info);
     const Script& script = instance_->script();
-    if (!capture_ || !capture_->wants(frame.index) || script.ended(frame.index)) return;
+    if (!capture_ || !capture_->wants(frame.index) || script.ended(frame.index)) return std::nullopt;
     submitted.blend_mode = info.environmentBlendMode;
     submitted.index = frame.index;
     submitted.display_time = frame.display_time;
@@ -187,6 +192,7 @@ void Session::show(const FrameTime& frame, XrViewConfigurationType configuration
         submitted,
         {eye_display(profile, configuration, Eye::Left), eye_display(profile, configuration, Eye::Right)});
     capture_->write(frame.index, submitted.layers, shown);
+    return compositor_->gpu_milliseconds();
 }
 
 void Session::end_frame(const XrFrameEndInfo& info) {
@@ -198,7 +204,9 @@ void Session::end_frame(const XrFrameEndInfo& info) {
     const XrViewConfigurationType configuration = configuration_;
     lock.unlock();
 
-    if (!headless()) show(frame, configuration, info);  // which shows no layers
+    TimingFile::End end{TimingFile::now(), info.layerCount, {}};
+    if (!headless()) end.composition_ms = show(frame, configuration, info);  // which shows no layers
+    if (TimingFile* timing = instance_->timing()) timing->ended(frame, end);
 
     const Script& script = instance_->script();
     lock.lock();

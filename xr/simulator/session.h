@@ -72,7 +72,9 @@ class Session : public Object {
     void change_visibility_mask(bool has_mask);
     void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
     void announce_presence();
-    void show(const FrameTime& frame, XrViewConfigurationType configuration, const XrFrameEndInfo& info);
+    /// The milliseconds that the GPU took to compose it; nothing when it was not composed.
+    std::optional<double> show(const FrameTime& frame, XrViewConfigurationType configuration,
+                               const XrFrameEndInfo& info);
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
