@@ -100,10 +100,14 @@ namespace foveray::simulator {
 FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_DECLARE)
 #undef FOVERAY_DECLARE
 
+/// What a function's handle belongs to.
+enum class Owner { None, Instance, Session };
+
 struct FunctionEntry {
     std::string_view name;
-    PFN_xrVoidFunction function;
+    PFN_xrVoidFunction function;  // for clients: asks the script first whether the call fails
     std::string_view feature;
+    Owner owner;
 };
 
 /// nullptr when there is none of that name.

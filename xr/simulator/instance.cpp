@@ -15,11 +15,28 @@ HeadsetProfile read_profile(const Options& options) {
 }
 
 Script make_script(const Options& options) {
-    if (options.session.empty()) return Script(read_profile(options));
-    foveray::Session session = read_session(options.session);
-    HeadsetProfile profile =
-        read_headset_profile(options.profile.empty() ? session.headset : options.profile);
-    return Script(std::move(profile), std::move(session));
+    std::optional<foveray::Session> session;
+    if (!options.session.empty()) session = read_session(options.session);
+    const std::string headset = session ? session->headset : "ci";
+    return Script(read_headset_profile(options.profile.empty() ? headset : options.profile),
+                  std::move(session), options.faults);
+}
+
+/// Where an instance with a loss left the script.
+struct Continuation {
+    std::filesystem::path session, faults;
+    FrameClock::Position clock;
+    Nanoseconds played_until;
+    std::shared_ptr<FailingCalls> failing_calls;
+};
+std::mutex continuation_mutex;
+std::optional<Continuation> continuation;
+
+std::optional<Continuation> take_continuation(const Options& options) {
+    const std::lock_guard lock(continuation_mutex);
+    auto found = std::exchange(continuation, std::nullopt);
+    const bool same = found && found->session == options.session && found->faults == options.faults;
+    return same ? found : std::nullopt;
 }
 
 bool has_focus_display(const HeadsetProfile& profile) { return profile.views.size() == 4; }
@@ -67,6 +84,85 @@ Instance::Instance(std::set<std::string, std::less<>> features)
       script_(make_script(options_)),
       clock_(options_.time, script_.rate_hz()) {
     if (!options_.timing.empty()) timing_.emplace(options_.timing);
+    if (auto before = take_continuation(options_)) {
+        clock_.go_on(before->clock);
+        failing_calls_ = std::move(before->failing_calls);
+        played_until_ = before->played_until;
+    } else {
+        failing_calls_ = std::make_shared<FailingCalls>();
+        played_until_ = ScriptedFault::start - 1;
+        play_faults(ScriptedFault::start);
+    }
+}
+
+std::vector<ScriptedFault> Instance::play_faults(Nanoseconds time) {
+    Nanoseconds after;
+    {
+        const std::lock_guard lock(mutex_);
+        after = played_until_;
+        played_until_ = std::max(time, played_until_);
+    }
+    const auto faults = script_.faults().between(after, time);
+    for (const ScriptedFault& fault : faults) play(fault);
+    return faults;
+}
+
+void Instance::play(const ScriptedFault& fault) {
+    switch (fault.kind) {
+        case FaultKind::InstanceLoss:
+            lost_at_ = ScriptedFault::start;
+            break;
+        case FaultKind::InstanceLossPending: {
+            const Nanoseconds loss = fault.time + fault.span;
+            lost_at_ = std::min(lost_at_.load(), loss);
+            events_.push(XrEventDataInstanceLossPending{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING, nullptr,
+                                                        clock_.time_of(loss)});
+            break;
+        }
+        case FaultKind::SwapchainTimeout:
+            swapchain_timeouts_ = fault.count;
+            return;
+        case FaultKind::FailingCall: {
+            const bool of_process = fault.call.function->owner == Owner::None;
+            // Those from the start have been armed before there was an instance.
+            if (of_process && fault.time == ScriptedFault::start) return;
+            (of_process ? failing_calls_of_process() : *failing_calls_).add(fault.call);
+            calls_may_fail = true;
+            return;
+        }
+        case FaultKind::SessionLoss:
+        case FaultKind::SessionLossPending:
+            break;
+        default:
+            return;
+    }
+    calls_may_fail = true;
+    const std::lock_guard lock(mutex_);
+    loses_ = true;
+}
+
+bool Instance::lost() const { return clock_.session_time(clock_.now()) >= lost_at_; }
+
+bool Instance::is_plugged_in() {
+    const std::lock_guard plug_lock(plug_mutex_);
+    const auto available_at = [&](XrTime time) {
+        return script_.faults().at(clock_.session_time(time)).form_factor_available;
+    };
+    if (available_at(clock_.now())) return true;
+    {
+        const std::lock_guard lock(mutex_);
+        if (has_session_) return false;  // it plays the script
+    }
+    const XrTime time = clock_.tick().display_time;
+    play_faults(clock_.session_time(time));
+    return available_at(time);
+}
+
+bool Instance::take_swapchain_timeout() {
+    std::uint32_t left = swapchain_timeouts_;
+    while (left > 0 && !swapchain_timeouts_.compare_exchange_weak(left, left - 1)) {
+    }
+    return left > 0;
 }
 
 std::vector<XrViewConfigurationType> Instance::view_configurations() const {
@@ -132,6 +228,9 @@ void Instance::on_destroy() {
     const std::lock_guard lock(mutex_);
     destroyed_ = true;
     suggestions_.clear();
+    if (!loses_) return;
+    const std::lock_guard continuation_lock(continuation_mutex);
+    continuation = {options_.session, options_.faults, clock_.position(), played_until_, failing_calls_};
 }
 
 void Instance::suggest(const std::string& interaction_profile, std::vector<SuggestedBinding> bindings) {

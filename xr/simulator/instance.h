@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 
 #include "xr/simulator/debug_utils.h"
 #include "xr/simulator/events.h"
+#include "xr/simulator/failing_calls.h"
 #include "xr/simulator/frame_clock.h"
 #include "xr/simulator/handles.h"
 #include "xr/simulator/openxr_1_1.h"
@@ -43,7 +45,8 @@ struct SuggestedBinding {
     XrPath path;
 };
 
-/// A client's connection to one simulated headset. Its environment variables are read when it is made.
+/// A client's connection to one simulated headset. Its environment variables are read when it is made. After
+/// a loss the next one of the process goes on where the script was, if it has the same.
 class Instance : public Object {
   public:
     using Handle = XrInstance;
@@ -59,6 +62,7 @@ class Instance : public Object {
     bool has(std::string_view feature) const { return feature.empty() || features_.contains(feature); }
     const Options& options() const { return options_; }
     const Script& script() const { return script_; }
+    Script& script() { return script_; }
     const HeadsetProfile& profile() const { return script_.profile(); }
     FrameClock& clock() { return clock_; }
     /// nullptr where none is kept.
@@ -68,6 +72,17 @@ class Instance : public Object {
     std::vector<XrViewConfigurationType> view_configurations() const;
     std::vector<XrEnvironmentBlendMode> blend_modes() const;
     bool supports(XrViewConfigurationType type) const;
+
+    /// Plays the script's faults up to a session time. Those that concern a session are the caller's.
+    std::vector<ScriptedFault> play_faults(Nanoseconds time);
+    /// Every call but the destruction answers XR_ERROR_INSTANCE_LOST.
+    bool lost() const;
+    FailingCalls& failing_calls() { return *failing_calls_; }
+    /// The form factor is available. While it is not and there is no session, each question plays the script:
+    /// in virtual time one period further, in real time up to now.
+    bool is_plugged_in();
+    /// The next wait for a swapchain's image runs out of time.
+    bool take_swapchain_timeout();
 
     EventQueue& events() { return events_; }
     DebugUtils& debug() { return debug_; }
@@ -93,12 +108,20 @@ class Instance : public Object {
     void release_session();
 
   private:
+    void play(const ScriptedFault& fault);
+
     std::set<std::string, std::less<>> features_;
     Options options_;
     Script script_;
     FrameClock clock_;
     std::optional<TimingFile> timing_;
     PathTable paths_;
+
+    std::shared_ptr<FailingCalls> failing_calls_;
+    std::atomic<Nanoseconds> lost_at_ = std::numeric_limits<Nanoseconds>::max();  // session time
+    std::atomic<std::uint32_t> swapchain_timeouts_ = 0;
+
+    std::mutex plug_mutex_;  // taken before mutex_
 
     EventQueue events_;
     DebugUtils debug_;
@@ -110,6 +133,8 @@ class Instance : public Object {
     std::map<std::string, std::vector<SuggestedBinding>> suggestions_;
     std::set<std::pair<bool, std::string>> names_;
     bool has_session_ = false;
+    Nanoseconds played_until_;  // session time
+    bool loses_ = false;        // a loss was played
 };
 
 /// Refuses with XR_ERROR_HANDLE_INVALID or XR_ERROR_SYSTEM_INVALID.

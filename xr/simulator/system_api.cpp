@@ -17,10 +17,11 @@ void verify_view_configuration(const Instance& instance, XrViewConfigurationType
 XRAPI_ATTR XrResult XRAPI_CALL xrGetSystem(XrInstance instance, const XrSystemGetInfo* info,
                                            XrSystemId* system) {
     return guarded([&] {
-        get<Instance>(instance);
+        const auto object = get<Instance>(instance);
         verify_structure(info, XR_TYPE_SYSTEM_GET_INFO);
         verify(system != nullptr);
         verify(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, XR_ERROR_FORM_FACTOR_UNSUPPORTED);
+        verify(object->is_plugged_in(), XR_ERROR_FORM_FACTOR_UNAVAILABLE);
         *system = Instance::system_id;
     });
 }

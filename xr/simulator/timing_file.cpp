@@ -1,6 +1,5 @@
 #include "xr/simulator/timing_file.h"
 
-#include <algorithm>
 #include <chrono>
 #include <iomanip>
 #include <set>
@@ -47,9 +46,7 @@ Nanoseconds TimingFile::now() {
 
 void TimingFile::waited(const FrameTime& frame, Nanoseconds session_time, Nanoseconds called) {
     const std::lock_guard lock(mutex_);
-    rows_[frame.index] = {session_time, called, now(), 0,
-                          frame.index - std::min(next_frame_.value_or(frame.index), frame.index)};
-    next_frame_ = frame.index + 1;
+    rows_[frame.index] = {session_time, called, now(), 0};
 }
 
 void TimingFile::begun(const FrameTime& frame) {
@@ -64,10 +61,11 @@ void TimingFile::ended(const FrameTime& frame, const End& end) {
     const Nanoseconds cost = call_cost::take();
     out_ << frame.index << ',' << row.session_time << ',' << frame.display_time << ',' << row.wait_called
          << ',' << row.wait_returned << ',' << row.begun << ',' << end.called << ',' << now() << ','
-         << row.missed << ',' << end.layers << ',' << std::fixed << std::setprecision(1)
-         << static_cast<double>(cost) * 1e-3 << ',';
+         << end.missed_frames - missed_frames_ << ',' << end.layers << ',' << std::fixed
+         << std::setprecision(1) << static_cast<double>(cost) * 1e-3 << ',';
     if (end.composition_ms) out_ << std::setprecision(4) << *end.composition_ms;
     out_ << std::endl;  // a client may crash in the next frame
+    missed_frames_ = end.missed_frames;
     call_cost::skip();
 }
 

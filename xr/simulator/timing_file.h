@@ -26,6 +26,7 @@ class TimingFile {
     struct End {
         Nanoseconds called = 0;
         std::uint32_t layers = 0;
+        std::uint64_t missed_frames = 0;       // of all up to now
         std::optional<double> composition_ms;  // where the frame was composed
     };
     /// xrWaitFrame was called at `called` and returns that frame.
@@ -37,13 +38,12 @@ class TimingFile {
   private:
     struct Row {
         Nanoseconds session_time = 0, wait_called = 0, wait_returned = 0, begun = 0;
-        std::uint64_t missed = 0;
     };
 
     std::mutex mutex_;  // what follows
     std::ofstream out_;
     std::map<std::uint64_t, Row> rows_;  // by frame; those not ended yet
-    std::optional<std::uint64_t> next_frame_;
+    std::uint64_t missed_frames_ = 0;
 };
 
 }  // namespace foveray::simulator

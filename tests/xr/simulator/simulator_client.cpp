@@ -9,8 +9,8 @@ namespace foveray::simulator_tests {
 void set_environment(const std::map<std::string, std::string>& variables) {
     setenv("XR_RUNTIME_JSON", SIMULATOR_MANIFEST, 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
-    for (const char* name :
-         {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT", "BACKGROUND", "GPU", "TIMING"}) {
+    for (const char* name : {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT",
+                             "BACKGROUND", "GPU", "TIMING", "FAULTS"}) {
         unsetenv((std::string("FOVERAY_SIMULATOR_") + name).c_str());
     }
     for (const auto& [name, value] : variables)
@@ -94,6 +94,7 @@ std::vector<XrSessionState> SimulatorClient::take_states() {
         const XrResult result = xrPollEvent(instance, &event);
         if (result == XR_EVENT_UNAVAILABLE) return states;
         EXPECT_EQ(result, XR_SUCCESS);
+        if (result != XR_SUCCESS) return states;
         if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
             const auto& change = reinterpret_cast<const XrEventDataSessionStateChanged&>(event);
             EXPECT_EQ(change.session, session);
