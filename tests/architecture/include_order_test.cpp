@@ -39,7 +39,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> library_homes =
     {"openxr/", {"xr/client", "xr/simulator"}},
     {"tiny_gltf.h", {"render/scene"}},
     {"glslang/", {"render/user_shapes"}},
-    {"GLFW/", {"app"}},
+    {"GLFW/", {"app", "xr/simulator"}},
     {"imgui", {"app"}},
     {"vk_mem_alloc.h", {"render/gpu"}},
 };

@@ -1,5 +1,6 @@
 #include "xr/simulator/compositor.h"
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <tuple>
@@ -56,6 +57,7 @@ Compositor::Compositor(VulkanDevice& device, const Background& background)
         queries_ =
             device.own(queries, f.vkDestroyQueryPool, VK_OBJECT_TYPE_QUERY_POOL, "simulator timestamps");
     }
+    batch_ = device.create_batch("simulator composition");
     draws_ = device.create_buffer(ComputePipelines::max_dispatches * sizeof(shared::CompositionDraw),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, VulkanDevice::Place::Upload,
                                   "simulator draws");
@@ -98,19 +100,48 @@ Compositor::Dispatches Compositor::gather(const SubmittedFrame& frame, const Eye
     return dispatches;
 }
 
-EyePictures Compositor::compose(const SubmittedFrame& frame, const Eyes& eyes) {
+void Compositor::start(const SubmittedFrame& frame, const Eyes& eyes) {
     make_buffers(eyes);
     background_.prepare(frame.index);
     pipelines_.reset();
+    sizes_ = {eyes[0].size, eyes[1].size};
     const Dispatches dispatches = gather(frame, eyes);
     std::memcpy(draws_.mapped, dispatches.draws.data(),
                 dispatches.draws.size() * sizeof dispatches.draws.front());
-    device_.submit([&](VkCommandBuffer commands) { record(commands, dispatches, eyes); });
-    read_timestamps();
+    device_.start(batch_, [&](VkCommandBuffer commands) { record(commands, dispatches, eyes); });
+    SubmittedFrame last = frame;
+    const std::lock_guard lock(frame_mutex_);
+    std::swap(frame_, last);
+}
 
+void Compositor::forget() {
+    SubmittedFrame last;
+    const std::lock_guard lock(frame_mutex_);
+    std::swap(frame_, last);
+}
+
+EyePictures Compositor::finish() {
+    device_.finish(batch_);
+    read_timestamps();
     const auto* bytes = static_cast<const std::uint8_t*>(readback_.mapped);
-    const std::size_t left = 4 * pixels_of(eyes[0]), right = 4 * pixels_of(eyes[1]);
-    return {EyePicture{eyes[0].size, {bytes, left}}, EyePicture{eyes[1].size, {bytes + left, right}}};
+    const auto byte_count = [](uvec2 size) { return std::size_t{4} * size.x * size.y; };
+    const std::size_t left = byte_count(sizes_[0]), right = byte_count(sizes_[1]);
+    return {EyePicture{sizes_[0], {bytes, left}}, EyePicture{sizes_[1], {bytes + left, right}}};
+}
+
+bool Compositor::shows(const Swapchain& swapchain) const {
+    const std::lock_guard lock(frame_mutex_);
+    const auto is_it = [&](const SubImage& part) { return part.swapchain.get() == &swapchain; };
+    return std::ranges::any_of(frame_.layers, [&](const Layer& layer) {
+        if (const auto* surface = std::get_if<Surface>(&layer.content)) return is_it(surface->image);
+        return std::ranges::any_of(std::get<Projection>(layer.content).views,
+                                   [&](const ProjectionView& view) { return is_it(view.image); });
+    });
+}
+
+std::optional<double> Compositor::gpu_milliseconds() const {
+    const double measured = gpu_milliseconds_;
+    return measured >= 0.0 ? std::optional(measured) : std::nullopt;
 }
 
 void Compositor::record(VkCommandBuffer commands, const Dispatches& dispatches, const Eyes& eyes) {

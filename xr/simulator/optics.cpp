@@ -16,8 +16,6 @@ TangentRange place(float centre, float width, TangentRange limits) {
     return {low, std::min(low + width, limits.high)};
 }
 
-constexpr float max_display_size = 2048.0f;  // pixels a side
-
 /// Pixels a unit of tangent.
 vec2 density(const HeadsetProfile::ViewProfile& view) {
     return vec2(view.size) / vec2(std::tan(view.fov.right) - std::tan(view.fov.left),
@@ -66,7 +64,7 @@ Fov foveated_fov(const HeadsetProfile& profile, const HeadsetProfile::ViewProfil
             std::min(std::atan(up), context.up), std::max(std::atan(down), context.down)};
 }
 
-EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType type, Eye eye) {
+EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType type, Eye eye, float max_size) {
     const auto views = views_of(profile, type);
     const auto index = static_cast<std::size_t>(eye);
     const HeadsetProfile::ViewProfile& context = views[index];
@@ -75,7 +73,7 @@ EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType ty
         const vec2 ratio = density(views[2 + index]) / density(context);
         size *= std::max({1.0f, ratio.x, ratio.y});  // one factor, so that pixels keep their shape
     }
-    size *= std::min(1.0f, max_display_size / std::max(size.x, size.y));
+    size *= std::min(1.0f, max_size / std::max(size.x, size.y));
     return {eye, context.fov, {even(size.x), even(size.y)}, head_from_eye(profile, eye)};
 }
 

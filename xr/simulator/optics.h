@@ -28,7 +28,7 @@ struct EyeDisplay {
     uvec2 size{0};
     Pose head_from_eye;
 };
-EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType type, Eye eye);
+EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType type, Eye eye, float max_size);
 
 Pose head_from_eye(const HeadsetProfile& profile, Eye eye);
 

@@ -40,6 +40,13 @@ CaptureFormat read_capture_format() {
                     "use png or raw");
 }
 
+bool read_window() {
+    const std::string window = variable("FOVERAY_SIMULATOR_WINDOW");
+    if (window.empty() || window == "0") return false;
+    if (window == "1") return true;
+    throw_bad_input("FOVERAY_SIMULATOR_WINDOW=" + window, "is neither 1 nor 0", "use 1 for a window");
+}
+
 }  // namespace
 
 std::filesystem::path faults_file() {
@@ -67,6 +74,7 @@ Options read_options() {
     options.timing = variable("FOVERAY_SIMULATOR_TIMING");
     options.capture_format = read_capture_format();
     options.background = parse_background(variable("FOVERAY_SIMULATOR_BACKGROUND"));
+    options.window = read_window();
     options.time = time_mode();
     if (const std::string frames = variable("FOVERAY_SIMULATOR_CAPTURE_FRAMES"); !frames.empty()) {
         read_frames(frames, options);

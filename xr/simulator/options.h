@@ -23,6 +23,7 @@ struct Options {
     std::uint64_t end_captured_frame = UINT64_MAX;
     std::optional<std::uint32_t> gpu;
     Background background;
+    bool window = false;
 
     bool captures(std::uint64_t frame) const {
         return !capture.empty() && frame >= first_captured_frame && frame < end_captured_frame;

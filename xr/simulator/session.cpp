@@ -7,6 +7,22 @@
 #include "xr/simulator/optics.h"
 
 namespace foveray::simulator {
+namespace {
+
+// Of an eye's picture, pixels a side.
+constexpr float max_captured_size = 2048.0f, max_window_size = 1024.0f;
+
+std::array<EyeDisplay, 2> eye_displays(const HeadsetProfile& profile, XrViewConfigurationType type,
+                                       float max_size) {
+    return {eye_display(profile, type, Eye::Left, max_size),
+            eye_display(profile, type, Eye::Right, max_size)};
+}
+
+std::size_t pixel_count(const std::array<EyeDisplay, 2>& eyes) {
+    return std::size_t{eyes[0].size.x} * eyes[0].size.y + std::size_t{eyes[1].size.x} * eyes[1].size.y;
+}
+
+}  // namespace
 
 Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device)
     : instance_(std::move(instance)),
@@ -14,25 +30,45 @@ Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevic
       devices_(*instance_),
       inputs_(*instance_, devices_),
       lifecycle_([this](XrSessionState state) { announce(state); }) {
-    const Options& options = instance_->options();
-    if (device_ && !options.capture.empty()) {
-        if (!device_->can_compute()) {
-            report("the queue family of the graphics binding takes no compute commands, which captures need");
-            throw Refusal{XR_ERROR_GRAPHICS_DEVICE_INVALID};
-        }
-        compositor_.emplace(*device_, options.background);
-        capture_.emplace(options, *device_);
-    }
+    if (device_) make_compositor();
     verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
 }
 
+void Session::make_compositor() {
+    const Options& options = instance_->options();
+    if (options.capture.empty() && !options.window) return;
+    if (!device_->can_compute()) {
+        report(
+            "the queue family of the graphics binding takes no compute commands, which captures and the "
+            "window need");
+        throw Refusal{XR_ERROR_GRAPHICS_DEVICE_INVALID};
+    }
+    compositor_.emplace(*device_, options.background);
+    if (!options.capture.empty()) capture_.emplace(options, *device_);
+    if (options.window) {
+        std::size_t pixels = 0;
+        for (const XrViewConfigurationType type : instance_->view_configurations())
+            pixels =
+                std::max(pixels, pixel_count(eye_displays(instance_->profile(), type, max_captured_size)));
+        window_.emplace(*compositor_, pixels);
+    }
+}
+
 void Session::on_destroy() {
-    const std::lock_guard lock(mutex_);
-    destroyed_ = true;
-    instance_->events().forget(handle_of(*this));
-    instance_->release_session();
-    no_wait_.request_stop();
-    frame_taken_.notify_all();
+    const std::lock_guard end_lock(end_mutex_);
+    {
+        const std::lock_guard lock(mutex_);
+        destroyed_ = true;
+        instance_->events().forget(handle_of(*this));
+        instance_->release_session();
+        no_wait_.request_stop();
+        frame_taken_.notify_all();
+    }
+    if (window_) window_->settle();
+}
+
+void Session::release_images(const Swapchain& swapchain) {
+    if (window_) window_->release(swapchain);
 }
 
 void Session::start() {
@@ -219,23 +255,34 @@ std::optional<double> Session::show(const FrameTime& frame, XrViewConfigurationT
     SubmittedFrame submitted;
     submitted.layers = read_layers(*this, info);
     const Script& script = instance_->script();
-    if (!capture_ || !capture_->wants(frame.index) || script.ended(frame.index)) return std::nullopt;
+    if (script.ended(frame.index)) return std::nullopt;
+    const bool captured = capture_ && capture_->wants(frame.index), watched = window_ && window_->is_open();
+    if (!captured && !watched) return std::nullopt;
     submitted.blend_mode = info.environmentBlendMode;
     submitted.index = frame.index;
     submitted.display_time = frame.display_time;
     submitted.stage_from_head =
         script.head_at(instance_->clock().session_time(frame.display_time)).stage_from_head;
     const HeadsetProfile& profile = instance_->profile();
-    const EyePictures shown = compositor_->compose(
-        submitted,
-        {eye_display(profile, configuration, Eye::Left), eye_display(profile, configuration, Eye::Right)});
+    if (!captured) {
+        window_->show(submitted, eye_displays(profile, configuration, max_window_size));
+        return std::nullopt;  // it composes later, if at all
+    }
+
+    if (window_) window_->settle();
+    const auto eyes = eye_displays(profile, configuration, max_captured_size);
+    compositor_->start(submitted, eyes);
+    const EyePictures shown = compositor_->finish();
+    compositor_->forget();
     capture_->write(frame.index, submitted.layers, shown);
+    if (watched) window_->publish(submitted, eyes, shown);
     return compositor_->gpu_milliseconds();
 }
 
 void Session::end_frame(const XrFrameEndInfo& info) {
     const std::lock_guard end_lock(end_mutex_);
     std::unique_lock lock(mutex_);
+    verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
     verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
     verify(begun_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const FrameTime frame = *begun_;

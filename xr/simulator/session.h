@@ -18,6 +18,7 @@
 #include "xr/simulator/instance.h"
 #include "xr/simulator/lifecycle.h"
 #include "xr/simulator/vulkan_device.h"
+#include "xr/simulator/window_feed.h"
 
 namespace foveray::simulator {
 
@@ -70,6 +71,8 @@ class Session : public Object {
     /// XR_SUCCESS, or XR_FRAME_DISCARDED when a begun frame was not ended.
     XrResult begin_frame();
     void end_frame(const XrFrameEndInfo& info);
+    /// Waits until nobody reads the swapchain's images but the client.
+    void release_images(const Swapchain& swapchain);
 
   private:
     void announce(XrSessionState state);
@@ -80,7 +83,8 @@ class Session : public Object {
     void change_visibility_mask(bool has_mask);
     void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
     void announce_presence();
-    /// The milliseconds that the GPU took to compose it; nothing when it was not composed.
+    void make_compositor();
+    /// The milliseconds that the GPU took to compose it; nothing when it was not composed at once.
     std::optional<double> show(const FrameTime& frame, XrViewConfigurationType configuration,
                                const XrFrameEndInfo& info);
 
@@ -89,8 +93,9 @@ class Session : public Object {
     DebugLabels labels_;
     Devices devices_;
     Inputs inputs_;
-    std::optional<Compositor> compositor_;  // when something is captured
+    std::optional<Compositor> compositor_;  // when something is captured or shown in a window
     std::optional<Capture> capture_;
+    std::optional<WindowFeed> window_;
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;

@@ -131,6 +131,7 @@ XrResult Swapchain::wait(XrDuration timeout) {
             std::this_thread::sleep_for(std::chrono::nanoseconds(timeout));
         return XR_TIMEOUT_EXPIRED;
     }
+    session_->release_images(*this);
     waited_ = true;
     return XR_SUCCESS;
 }

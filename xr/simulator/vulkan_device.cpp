@@ -66,7 +66,10 @@ VkPhysicalDevice choose_gpu(VkInstance instance, const VulkanInstanceFunctions& 
 
 VulkanDevice::VulkanDevice(VkInstance instance, VkPhysicalDevice physical, VkDevice device,
                            std::uint32_t queue_family, std::uint32_t queue_index, VulkanLoader loader)
-    : instance_functions_(instance, loader.get), physical_(physical), device_(device) {
+    : instance_functions_(instance, loader.get),
+      physical_(physical),
+      device_(device),
+      queue_family_(queue_family) {
     const auto load = [&](const char* name) { return instance_functions_.vkGetDeviceProcAddr(device, name); };
 #define FOVERAY_LOAD(name)                                       \
     functions_.name = reinterpret_cast<PFN_##name>(load(#name)); \
@@ -89,23 +92,26 @@ VulkanDevice::VulkanDevice(VkInstance instance, VkPhysicalDevice physical, VkDev
     family_ = families[queue_family];
     functions_.vkGetDeviceQueue(device, queue_family, queue_index, &queue_);
     verify(queue_ != VK_NULL_HANDLE, XR_ERROR_GRAPHICS_DEVICE_INVALID);
+    batch_ = create_batch("simulator commands");
+}
 
+VulkanDevice::Batch VulkanDevice::create_batch(const std::string& name) const {
+    Batch batch;
     const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family};
+                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family_};
     VkCommandPool pool = VK_NULL_HANDLE;
-    verify_vulkan(functions_.vkCreateCommandPool(device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
-    pool_ = own(pool, functions_.vkDestroyCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, "simulator command pool");
-
+    verify_vulkan(functions_.vkCreateCommandPool(device_, &pool_info, nullptr, &pool), "vkCreateCommandPool");
+    batch.pool = own(pool, functions_.vkDestroyCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, name + " pool");
     const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
                                                     pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-    verify_vulkan(functions_.vkAllocateCommandBuffers(device, &allocate_info, &commands_),
+    verify_vulkan(functions_.vkAllocateCommandBuffers(device_, &allocate_info, &batch.commands),
                   "vkAllocateCommandBuffers");
-    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(commands_), "simulator commands");
-
+    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(batch.commands), name);
     const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
     VkFence fence = VK_NULL_HANDLE;
-    verify_vulkan(functions_.vkCreateFence(device, &fence_info, nullptr, &fence), "vkCreateFence");
-    fence_ = own(fence, functions_.vkDestroyFence, VK_OBJECT_TYPE_FENCE, "simulator fence");
+    verify_vulkan(functions_.vkCreateFence(device_, &fence_info, nullptr, &fence), "vkCreateFence");
+    batch.fence = own(fence, functions_.vkDestroyFence, VK_OBJECT_TYPE_FENCE, name + " fence");
+    return batch;
 }
 
 void VulkanDevice::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
@@ -196,21 +202,31 @@ VulkanDevice::Buffer VulkanDevice::create_buffer(VkDeviceSize size, VkBufferUsag
 }
 
 void VulkanDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
-    const std::lock_guard lock(submit_mutex_);
-    verify_vulkan(functions_.vkResetCommandPool(device_, *pool_, 0), "vkResetCommandPool");
+    const std::lock_guard lock(batch_mutex_);
+    start(batch_, record);
+    finish(batch_);
+}
+
+void VulkanDevice::start(const Batch& batch, const std::function<void(VkCommandBuffer)>& record) {
+    verify_vulkan(functions_.vkResetCommandPool(device_, *batch.pool, 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo begin_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                               VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
-    verify_vulkan(functions_.vkBeginCommandBuffer(commands_, &begin_info), "vkBeginCommandBuffer");
-    record(commands_);
-    verify_vulkan(functions_.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    verify_vulkan(functions_.vkBeginCommandBuffer(batch.commands, &begin_info), "vkBeginCommandBuffer");
+    record(batch.commands);
+    verify_vulkan(functions_.vkEndCommandBuffer(batch.commands), "vkEndCommandBuffer");
 
     VkSubmitInfo submit_info{};
     submit_info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     submit_info.commandBufferCount = 1;
-    submit_info.pCommandBuffers = &commands_;
-    const VkFence fence = *fence_;
+    submit_info.pCommandBuffers = &batch.commands;
+    const VkFence fence = *batch.fence;
     verify_vulkan(functions_.vkResetFences(device_, 1, &fence), "vkResetFences");
+    const std::lock_guard lock(queue_mutex_);
     verify_vulkan(functions_.vkQueueSubmit(queue_, 1, &submit_info, fence), "vkQueueSubmit");
+}
+
+void VulkanDevice::finish(const Batch& batch) const {
+    const VkFence fence = *batch.fence;
     verify_vulkan(functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
 }
 

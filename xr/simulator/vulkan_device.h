@@ -130,6 +130,18 @@ class VulkanDevice {
     /// the client synchronises its queue.
     void submit(const std::function<void(VkCommandBuffer)>& record);
 
+    /// Commands that the GPU runs while the host goes on.
+    struct Batch {
+        VulkanOwned<VkCommandPool> pool;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        VulkanOwned<VkFence> fence;
+    };
+    Batch create_batch(const std::string& name) const;
+    /// As `submit`, without the wait. What the batch was given before is finished.
+    void start(const Batch& batch, const std::function<void(VkCommandBuffer)>& record);
+    /// Waits until the GPU is done. From any thread.
+    void finish(const Batch& batch) const;
+
     VkDevice handle() const { return device_; }
     const auto& functions() const { return functions_; }
     /// The client's queue takes compute commands.
@@ -152,15 +164,15 @@ class VulkanDevice {
     VulkanInstanceFunctions instance_functions_;
     VkPhysicalDevice physical_;
     VkDevice device_;
+    std::uint32_t queue_family_;
     VkQueue queue_ = VK_NULL_HANDLE;
     DeviceFunctions functions_;
     VkPhysicalDeviceMemoryProperties memory_{};
     VkQueueFamilyProperties family_{};
     float nanoseconds_per_tick_ = 0.0f;
-    VulkanOwned<VkCommandPool> pool_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    std::mutex submit_mutex_;
-    VulkanOwned<VkFence> fence_;
+    std::mutex batch_mutex_;
+    Batch batch_;  // of `submit`
+    std::mutex queue_mutex_;
 };
 
 }  // namespace foveray::simulator

@@ -106,8 +106,18 @@ TEST(EntryPoints, InstanceCreationVerifiesItsArguments) {
 TEST(EntryPoints, BadVariablesFailTheInstanceAndSayWhy) {
     fakes::TemporaryFolder folder;
     const std::map<std::string, std::string> cases[] = {
-        {{"TIME", "fast"}},          {{"GPU", "first"}},           {{"CAPTURE_FRAMES", "5"}},
-        {{"CAPTURE_FRAMES", "5:2"}}, {{"PROFILE", "no-such-one"}}, {{"SESSION", folder.path()}},
+        {{"TIME", "fast"}},
+        {{"GPU", "first"}},
+        {{"CAPTURE_FRAMES", "5"}},
+        {{"CAPTURE_FRAMES", "5:2"}},
+        {{"PROFILE", "no-such-one"}},
+        {{"SESSION", folder.path()}},
+        {{"CAPTURE_FORMAT", "bmp"}},
+        {{"BACKGROUND", "#12345"}},
+        {{"BACKGROUND", "#12345g"}},
+        {{"BACKGROUND", "no/such/file.hdr"}},
+        {{"BACKGROUND", "no/such/*.png"}},
+        {{"BACKGROUND", folder.path()}},
     };
     for (const auto& variables : cases) {
         set_environment(variables);

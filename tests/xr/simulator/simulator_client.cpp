@@ -10,7 +10,7 @@ void set_environment(const std::map<std::string, std::string>& variables) {
     setenv("XR_RUNTIME_JSON", SIMULATOR_MANIFEST, 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
     for (const char* name : {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT",
-                             "BACKGROUND", "GPU", "TIMING", "FAULTS"}) {
+                             "BACKGROUND", "WINDOW", "GPU", "TIMING", "FAULTS"}) {
         unsetenv((std::string("FOVERAY_SIMULATOR_") + name).c_str());
     }
     for (const auto& [name, value] : variables)
