@@ -21,4 +21,12 @@ const char* name_of(XrStructureType value) {
     }
 }
 
+std::optional<XrResult> result_of_name(std::string_view name) {
+#define FOVERAY_COMPARE(known, number) \
+    if (name == #known) return known;
+    XR_LIST_ENUM_XrResult(FOVERAY_COMPARE)
+#undef FOVERAY_COMPARE
+        return std::nullopt;
+}
+
 }  // namespace foveray::simulator

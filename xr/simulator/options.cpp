@@ -49,18 +49,29 @@ bool read_window() {
 
 }  // namespace
 
+std::filesystem::path faults_file() {
+    if (const std::string file = variable("FOVERAY_SIMULATOR_FAULTS"); !file.empty()) return file;
+    const std::string session = variable("FOVERAY_SIMULATOR_SESSION");
+    const std::filesystem::path file = std::filesystem::path(session) / "faults.csv";
+    std::error_code ignored;
+    return !session.empty() && std::filesystem::exists(file, ignored) ? file : std::filesystem::path();
+}
+
 TimeMode time_mode() {
     const std::string time = variable("FOVERAY_SIMULATOR_TIME");
     if (time == "virtual") return TimeMode::Virtual;
+    if (time == "stepped") return TimeMode::Stepped;
     if (time.empty() || time == "real") return TimeMode::Real;
-    throw_bad_input("FOVERAY_SIMULATOR_TIME=" + time, "is no kind of time", "use virtual or real");
+    throw_bad_input("FOVERAY_SIMULATOR_TIME=" + time, "is no kind of time", "use virtual, real or stepped");
 }
 
 Options read_options() {
     Options options;
     options.profile = variable("FOVERAY_SIMULATOR_PROFILE");
     options.session = variable("FOVERAY_SIMULATOR_SESSION");
+    options.faults = faults_file();
     options.capture = variable("FOVERAY_SIMULATOR_CAPTURE");
+    options.timing = variable("FOVERAY_SIMULATOR_TIMING");
     options.capture_format = read_capture_format();
     options.background = parse_background(variable("FOVERAY_SIMULATOR_BACKGROUND"));
     options.window = read_window();

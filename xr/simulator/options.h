@@ -9,15 +9,15 @@
 
 namespace foveray::simulator {
 
-enum class TimeMode { Virtual, Real };
+enum class TimeMode { Virtual, Real, Stepped };
 enum class CaptureFormat { Png, Raw };
 
 /// What the FOVERAY_SIMULATOR_* variables say; docs/simulator.md lists them.
 struct Options {
     std::string profile;  // empty: the session's headset, or "ci"
-    std::filesystem::path session;
+    std::filesystem::path session, faults;
     TimeMode time = TimeMode::Real;
-    std::filesystem::path capture;
+    std::filesystem::path capture, timing;
     CaptureFormat capture_format = CaptureFormat::Png;
     std::uint64_t first_captured_frame = 0;
     std::uint64_t end_captured_frame = UINT64_MAX;
@@ -30,6 +30,9 @@ struct Options {
     }
 };
 
+/// The file with the script's faults: FOVERAY_SIMULATOR_FAULTS, or the session's faults.csv where it has one.
+/// Empty: there is none.
+std::filesystem::path faults_file();
 /// Throws Fault(BadInput) naming the variable.
 TimeMode time_mode();
 Options read_options();

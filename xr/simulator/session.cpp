@@ -61,6 +61,7 @@ void Session::on_destroy() {
         destroyed_ = true;
         instance_->events().forget(handle_of(*this));
         instance_->release_session();
+        no_wait_.request_stop();
         frame_taken_.notify_all();
     }
     if (window_) window_->settle();
@@ -94,6 +95,11 @@ void Session::announce(XrSessionState state) {
 void Session::begin(XrViewConfigurationType configuration) {
     const std::lock_guard lock(mutex_);
     lifecycle_.begin();
+    const FrameClock& clock = instance_->clock();
+    user_present_ = instance_->script().faults().at(clock.session_time(clock.now())).user_present;
+    announce_presence();
+    no_wait_ = {};
+    instance_->clock().pause();
     configuration_ = configuration;
     view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
     waited_.reset();
@@ -104,6 +110,7 @@ void Session::begin(XrViewConfigurationType configuration) {
 
 void Session::play_without_frames() {
     const std::lock_guard lock(mutex_);
+    verify_not_lost();
     if (headless() && lifecycle_.running() && !has_frames_) play_script(instance_->clock().tick());
 }
 
@@ -115,8 +122,20 @@ void Session::end() {
 
 void Session::request_exit() {
     const std::lock_guard lock(mutex_);
-    verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
+    verify_not_lost();
     lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    no_wait_.request_stop();
+}
+
+void Session::lose(Nanoseconds at) {
+    lifecycle_.lose();
+    lost_at_ = std::min(lost_at_.value_or(at), at);
+}
+
+void Session::verify_not_lost() {
+    const FrameClock& clock = instance_->clock();
+    if (lost_at_ && clock.session_time(clock.now()) >= *lost_at_) lost_ = true;
+    verify(!lost_, XR_ERROR_SESSION_LOST);
 }
 
 void Session::change_visibility_mask(bool has_mask) {
@@ -128,37 +147,75 @@ void Session::change_visibility_mask(bool has_mask) {
     }
 }
 
-void Session::play_script(const FrameTime& frame) {
-    const Script& script = instance_->script();
-    const Nanoseconds time = instance_->clock().session_time(frame.display_time);
-    for (const Nanoseconds recentred : script.recentrings(played_until_, time)) {
-        const Pose previous = script.stage_from_local_at(recentred - 1);
-        const Pose next = script.stage_from_local_at(recentred);
-        instance_->events().push(XrEventDataReferenceSpaceChangePending{
-            XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this),
-            XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
-            to_xr(inverse(previous) * next)});
-    }
-    const bool paused = script.paused(played_until_, time);
-    played_until_ = time;
-    change_visibility_mask(script.has_visibility_mask_at(time));
-    if (script.session_lost_at(time)) lifecycle_.lose();
-    if (!lifecycle_.running()) return;
-    if (script.ended(frame.index) || script.exit_asked_at(time)) {
-        lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
-    } else if (paused) {
-        lifecycle_.ask_to_stop(Lifecycle::Stop::Pause);
-    } else {
-        lifecycle_.show(script.presence_at(time));
+void Session::announce_recentring(XrReferenceSpaceType type, Nanoseconds time,
+                                  const Pose& previous_from_next) {
+    instance_->events().push(XrEventDataReferenceSpaceChangePending{
+        XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this), type,
+        instance_->clock().time_of(time), XR_TRUE, to_xr(previous_from_next)});
+}
+
+/// XR_EXT_user_presence: when a session begins, and at each change while it runs.
+void Session::announce_presence() {
+    if (!instance_->has(XR_EXT_USER_PRESENCE_EXTENSION_NAME)) return;
+    instance_->events().push(XrEventDataUserPresenceChangedEXT{XR_TYPE_EVENT_DATA_USER_PRESENCE_CHANGED_EXT,
+                                                               nullptr, handle_of(*this), user_present_});
+}
+
+void Session::play(const ScriptedFault& fault) {
+    switch (fault.kind) {
+        case FaultKind::Recentre: {
+            const Script& script = instance_->script();
+            announce_recentring(
+                XR_REFERENCE_SPACE_TYPE_LOCAL, fault.time,
+                inverse(script.stage_from_local_at(fault.time - 1)) * script.stage_from_local_at(fault.time));
+            if (!instance_->has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)) break;
+            announce_recentring(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR, fault.time,
+                                inverse(script.stage_from_local_floor_at(fault.time - 1)) *
+                                    script.stage_from_local_floor_at(fault.time));
+            break;
+        }
+        case FaultKind::SessionLoss:
+            lose(0);
+            break;
+        case FaultKind::SessionLossPending:
+            lose(fault.time + fault.span);
+            gives_notice_ = true;
+            break;
+        case FaultKind::Exit:
+            if (lifecycle_.running()) lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+            break;
+        case FaultKind::SessionPause:
+            if (lifecycle_.running()) lifecycle_.ask_to_stop(Lifecycle::Stop::Pause);
+            break;
+        default:
+            break;
     }
 }
 
+void Session::play_script(const FrameTime& frame) {
+    const Script& script = instance_->script();
+    const Nanoseconds time = instance_->clock().session_time(frame.display_time);
+    for (const ScriptedFault& fault : instance_->play_faults(time)) play(fault);
+    const Condition condition = script.faults().at(time);
+    compositor_frame_ = condition.compositor_frame;
+    change_visibility_mask(condition.has_visibility_mask);
+    if (condition.user_present != user_present_) {
+        user_present_ = condition.user_present;
+        if (lifecycle_.running()) announce_presence();
+    }
+    if (!lifecycle_.running()) return;
+    if (script.ended(frame.index)) lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    lifecycle_.show(script.presence_at(time));
+    if (lifecycle_.stopping() || lifecycle_.lost()) no_wait_.request_stop();
+}
+
 Session::WaitedFrame Session::wait_frame() {
+    const Nanoseconds called = TimingFile::now();
     std::unique_lock lock(mutex_);
     const auto verify_running = [&] {
         verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
         verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
-        verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
+        verify_not_lost();
     };
     verify_running();
     frame_taken_.wait(lock, [&] { return destroyed_ || !lifecycle_.running() || (!waiting_ && !waited_); });
@@ -166,14 +223,19 @@ Session::WaitedFrame Session::wait_frame() {
 
     waiting_ = true;
     has_frames_ = true;
+    const Nanoseconds compositor_frame = compositor_frame_;
+    const std::stop_token no_wait = no_wait_.get_token();
     lock.unlock();
-    const FrameTime frame = instance_->clock().next_frame();
+    const FrameTime frame = instance_->clock().next_frame(compositor_frame, no_wait);
     lock.lock();
     waiting_ = false;
     frame_taken_.notify_all();
     verify_running();
     waited_ = frame;
     play_script(frame);
+    if (TimingFile* timing = instance_->timing()) {
+        timing->waited(frame, instance_->clock().session_time(frame.display_time), called);
+    }
     return {frame, lifecycle_.visible() && !headless()};
 }
 
@@ -183,25 +245,29 @@ XrResult Session::begin_frame() {
     verify(waited_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const bool discarded = begun_.has_value();
     begun_ = std::exchange(waited_, std::nullopt);
+    if (TimingFile* timing = instance_->timing()) timing->begun(*begun_);
     frame_taken_.notify_all();
     return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-void Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
-                   const XrFrameEndInfo& info) {
+std::optional<double> Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
+                                    const XrFrameEndInfo& info) {
     SubmittedFrame submitted;
     submitted.layers = read_layers(*this, info);
     const Script& script = instance_->script();
-    if (script.ended(frame.index)) return;
+    if (script.ended(frame.index)) return std::nullopt;
     const bool captured = capture_ && capture_->wants(frame.index), watched = window_ && window_->is_open();
-    if (!captured && !watched) return;
+    if (!captured && !watched) return std::nullopt;
     submitted.blend_mode = info.environmentBlendMode;
     submitted.index = frame.index;
     submitted.display_time = frame.display_time;
     submitted.stage_from_head =
         script.head_at(instance_->clock().session_time(frame.display_time)).stage_from_head;
     const HeadsetProfile& profile = instance_->profile();
-    if (!captured) return window_->show(submitted, eye_displays(profile, configuration, max_window_size));
+    if (!captured) {
+        window_->show(submitted, eye_displays(profile, configuration, max_window_size));
+        return std::nullopt;  // it composes later, if at all
+    }
 
     if (window_) window_->settle();
     const auto eyes = eye_displays(profile, configuration, max_captured_size);
@@ -210,6 +276,7 @@ void Session::show(const FrameTime& frame, XrViewConfigurationType configuration
     compositor_->forget();
     capture_->write(frame.index, submitted.layers, shown);
     if (watched) window_->publish(submitted, eyes, shown);
+    return compositor_->gpu_milliseconds();
 }
 
 void Session::end_frame(const XrFrameEndInfo& info) {
@@ -222,7 +289,11 @@ void Session::end_frame(const XrFrameEndInfo& info) {
     const XrViewConfigurationType configuration = configuration_;
     lock.unlock();
 
-    if (!headless()) show(frame, configuration, info);  // which shows no layers
+    TimingFile::End end{TimingFile::now(), info.layerCount, 0, {}};
+    if (!headless()) end.composition_ms = show(frame, configuration, info);  // which shows no layers
+    instance_->clock().end_frame(frame);
+    end.missed_frames = instance_->clock().missed_frames();
+    if (TimingFile* timing = instance_->timing()) timing->ended(frame, end);
 
     const Script& script = instance_->script();
     lock.lock();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include <openxr/openxr.h>
@@ -50,6 +51,10 @@ class Session : public Object {
     std::uint32_t view_count() const { return view_count_; }
     /// The script may take the visibility mask away.
     bool has_visibility_mask() const { return has_visibility_mask_; }
+    /// Every call but the destruction answers XR_ERROR_SESSION_LOST.
+    bool lost() const { return lost_; }
+    /// It will be lost in a while: calls that succeed answer XR_SESSION_LOSS_PENDING.
+    bool gives_notice() const { return gives_notice_; }
 
     void begin(XrViewConfigurationType configuration);
     void end();
@@ -72,9 +77,16 @@ class Session : public Object {
   private:
     void announce(XrSessionState state);
     void play_script(const FrameTime& frame);
+    void play(const ScriptedFault& fault);
+    void lose(Nanoseconds at);
+    void verify_not_lost();
     void change_visibility_mask(bool has_mask);
+    void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
+    void announce_presence();
     void make_compositor();
-    void show(const FrameTime& frame, XrViewConfigurationType configuration, const XrFrameEndInfo& info);
+    /// The milliseconds that the GPU took to compose it; nothing when it was not composed at once.
+    std::optional<double> show(const FrameTime& frame, XrViewConfigurationType configuration,
+                               const XrFrameEndInfo& info);
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
@@ -87,14 +99,17 @@ class Session : public Object {
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;
-    std::atomic<bool> has_visibility_mask_ = true;
+    std::atomic<bool> has_visibility_mask_ = true, lost_ = false, gives_notice_ = false;
     mutable std::mutex mutex_;  // what follows
     std::condition_variable frame_taken_;
     Lifecycle lifecycle_;
     XrViewConfigurationType configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     bool destroyed_ = false, waiting_ = false, has_frames_ = false;
     std::optional<FrameTime> waited_, begun_;
-    Nanoseconds played_until_ = -1;  // session time
+    std::optional<Nanoseconds> lost_at_;  // session time
+    Nanoseconds compositor_frame_ = 0;
+    std::stop_source no_wait_;  // a session that ends needs no steps
+    bool user_present_ = true;
 };
 
 }  // namespace foveray::simulator

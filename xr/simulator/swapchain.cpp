@@ -1,6 +1,8 @@
 #include "xr/simulator/swapchain.h"
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "xr/simulator/session.h"
 
@@ -119,11 +121,19 @@ std::uint32_t Swapchain::acquire() {
     return acquired_.back();
 }
 
-void Swapchain::wait() {
-    const std::lock_guard lock(mutex_);
+XrResult Swapchain::wait(XrDuration timeout) {
+    std::unique_lock lock(mutex_);
     verify(!acquired_.empty() && !waited_, XR_ERROR_CALL_ORDER_INVALID);
+    Instance& instance = session_->instance();
+    if (timeout != XR_INFINITE_DURATION && instance.take_swapchain_timeout()) {
+        lock.unlock();
+        if (instance.clock().mode() == TimeMode::Real)
+            std::this_thread::sleep_for(std::chrono::nanoseconds(timeout));
+        return XR_TIMEOUT_EXPIRED;
+    }
     session_->release_images(*this);
     waited_ = true;
+    return XR_SUCCESS;
 }
 
 void Swapchain::release() {

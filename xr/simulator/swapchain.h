@@ -39,7 +39,8 @@ class Swapchain : public Object {
 
     // XR_ERROR_CALL_ORDER_INVALID out of order.
     std::uint32_t acquire();
-    void wait();
+    /// XR_TIMEOUT_EXPIRED when the script wants it; in real time, after so long.
+    XrResult wait(XrDuration timeout);
     void release();
     /// What layers show: the image released last. Nothing before the first release.
     std::optional<std::uint32_t> shown() const;

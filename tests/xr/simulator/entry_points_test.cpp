@@ -1,4 +1,5 @@
 // The library itself: negotiation, function lookup, handles, and what every call refuses.
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -16,7 +17,7 @@ TEST(EntryPoints, NegotiationStatesVersionsAndRefusesStrangers) {
     ASSERT_EQ(runtime.negotiate(&loader, &request), XR_SUCCESS);
     EXPECT_EQ(request.interface, 1u);
     EXPECT_EQ(XR_VERSION_MAJOR(request.api), 1u);
-    EXPECT_EQ(XR_VERSION_MINOR(request.api), 0u);
+    EXPECT_EQ(XR_VERSION_MINOR(request.api), XR_VERSION_MINOR(XR_CURRENT_API_VERSION));
     EXPECT_EQ(runtime.negotiate(nullptr, &request), XR_ERROR_INITIALIZATION_FAILED);
     EXPECT_EQ(runtime.negotiate(&loader, nullptr), XR_ERROR_INITIALIZATION_FAILED);
     LoaderInfo future;
@@ -71,6 +72,18 @@ TEST(EntryPoints, ExtensionsAreListedOnce) {
     for (const auto& extension : list) names.insert(extension.extensionName);
     for (const char* name : all_extensions) EXPECT_EQ(names.count(name), 1u) << name;
     EXPECT_EQ(names.count(XR_KHR_VULKAN_ENABLE_EXTENSION_NAME), 1u);
+}
+
+TEST(EntryPoints, QuadViewsAreOfferedForFocusDisplaysOnly) {
+    for (const auto& [profile, has_focus] :
+         {std::pair{"ci", true}, {"varjo-xr1", true}, {"quest-pro", false}}) {
+        set_environment({{"PROFILE", profile}});
+        const auto offered = offered_extensions();
+        for (const std::string name :
+             {XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME}) {
+            EXPECT_EQ(std::ranges::count(offered, name), has_focus ? 1 : 0) << profile << ' ' << name;
+        }
+    }
 }
 
 TEST(EntryPoints, InstanceCreationVerifiesItsArguments) {
