@@ -5,6 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "xr/simulator/gaze_tracker.h"
+#include "xr/simulator/pattern.h"
+
 namespace foveray::simulator {
 
 enum class TimeMode { Virtual, Real, Stepped };
@@ -13,7 +16,10 @@ enum class TimeMode { Virtual, Real, Stepped };
 struct Options {
     std::string profile;  // empty: the session's headset, or "ci"
     std::filesystem::path session, faults;
+    std::optional<Pattern> pattern;
+    GazeOptions gaze;
     TimeMode time = TimeMode::Real;
+    std::filesystem::path control;  // socket; empty: none
     std::filesystem::path capture;
     std::uint64_t first_captured_frame = 0;
     std::uint64_t end_captured_frame = UINT64_MAX;

@@ -21,6 +21,8 @@ Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevic
 void Session::on_destroy() {
     const std::lock_guard lock(mutex_);
     destroyed_ = true;
+    note_running(false);
+    instance_->status().state = XR_SESSION_STATE_UNKNOWN;
     instance_->events().forget(handle_of(*this));
     instance_->release_session();
     no_wait_.request_stop();
@@ -42,7 +44,16 @@ bool Session::focused() const {
     return lifecycle_.focused();
 }
 
+void Session::note_running(bool running) {
+    Status& status = instance_->status();
+    if (status.running.exchange(running) && !running) {
+        ++status.session_ends;
+        instance_->wake_control();
+    }
+}
+
 void Session::announce(XrSessionState state) {
+    instance_->status().state = state;
     instance_->events().push(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
                                                             handle_of(*this), state,
                                                             instance_->clock().now()});
@@ -51,6 +62,7 @@ void Session::announce(XrSessionState state) {
 void Session::begin(XrViewConfigurationType configuration) {
     const std::lock_guard lock(mutex_);
     lifecycle_.begin();
+    note_running(true);
     no_wait_ = {};
     instance_->clock().pause();
     configuration_ = configuration;
@@ -70,6 +82,7 @@ void Session::play_without_frames() {
 void Session::end() {
     const std::lock_guard lock(mutex_);
     lifecycle_.end();
+    note_running(false);
     frame_taken_.notify_all();
 }
 
@@ -133,6 +146,7 @@ void Session::play(const ScriptedFault& fault) {
 void Session::play_script(const FrameTime& frame) {
     const Script& script = instance_->script();
     const Nanoseconds time = instance_->clock().session_time(frame.display_time);
+    instance_->status().frame = frame.index;
     for (const ScriptedFault& fault : instance_->play_faults(time)) play(fault);
     const Condition condition = script.faults().at(time);
     compositor_frame_ = condition.compositor_frame;
@@ -165,6 +179,7 @@ Session::WaitedFrame Session::wait_frame() {
     frame_taken_.notify_all();
     verify_running();
     waited_ = frame;
+    ++instance_->status().waited_frames;
     play_script(frame);
     return {frame, lifecycle_.visible() && !headless()};
 }
@@ -193,13 +208,15 @@ void Session::end_frame(const XrFrameEndInfo& info) {
         if (capture_->wants(frame.index) && !script.ended(frame.index)) capture_->write(frame.index, layers);
     }
 
-    instance_->clock().end_frame(frame);
     lock.lock();
     // Another thread may have begun the next frame meanwhile.
     if (begun_ && begun_->index == frame.index) begun_.reset();
     // The last frame of the script is on display: stop before the client waits for another.
     if (script.ended(frame.index + 1) && lifecycle_.running())
         lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    ++instance_->status().ended_frames;
+    instance_->clock().end_frame(frame);
+    instance_->wake_control();
 }
 
 }  // namespace foveray::simulator

@@ -8,7 +8,8 @@ namespace foveray::simulator_tests {
 void set_environment(const std::map<std::string, std::string>& variables) {
     setenv("XR_RUNTIME_JSON", SIMULATOR_MANIFEST, 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
-    for (const char* name : {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "GPU", "FAULTS"}) {
+    for (const char* name :
+         {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "GPU", "FAULTS", "CONTROL", "PATTERN", "GAZE"}) {
         unsetenv((std::string("FOVERAY_SIMULATOR_") + name).c_str());
     }
     for (const auto& [name, value] : variables)
