@@ -54,12 +54,6 @@ constexpr FaultName fault_names[] = {
     {"fail", FaultKind::FailingCall, ValueKind::Call},
 };
 
-/// They need a session: from the start on means its first frame.
-bool is_of_session(FaultKind kind) {
-    return kind == FaultKind::Exit || kind == FaultKind::SessionPause || kind == FaultKind::SessionLoss ||
-           kind == FaultKind::SessionLossPending || kind == FaultKind::Recentre;
-}
-
 bool is_instance_loss(FaultKind kind) {
     return kind == FaultKind::InstanceLoss || kind == FaultKind::InstanceLossPending;
 }
@@ -152,6 +146,15 @@ Nanoseconds parse_time(std::string_view text, Nanoseconds frame_period, const st
 }
 
 }  // namespace
+
+bool is_of_session(FaultKind kind) {
+    return kind == FaultKind::Exit || kind == FaultKind::SessionPause || kind == FaultKind::SessionLoss ||
+           kind == FaultKind::SessionLossPending || kind == FaultKind::Recentre;
+}
+
+bool is_of_instance(FaultKind kind) {
+    return is_instance_loss(kind) || kind == FaultKind::SwapchainTimeout || kind == FaultKind::FailingCall;
+}
 
 bool is_fault_name(std::string_view name) { return find_fault_name(name); }
 

@@ -54,6 +54,11 @@ struct ScriptedFault {
     FailingCall call;
 };
 
+/// They need a session: from the start on means its first frame.
+bool is_of_session(FaultKind kind);
+/// They happen once, to the instance.
+bool is_of_instance(FaultKind kind);
+
 /// `name` is one of those in docs/simulator.md.
 bool is_fault_name(std::string_view name);
 /// Throws Fault(BadInput) saying what is wrong with the name or the value at `where`.

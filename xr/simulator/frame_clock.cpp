@@ -73,7 +73,9 @@ FrameTime FrameClock::tick() {
     if (mode_ == TimeMode::Stepped) {
         const std::lock_guard lock(mutex_);
         const bool stands_still = started_ && !take_step();
-        return frame(stands_still ? next_index_ - 1 : next_index_.load());
+        const FrameTime now = frame(stands_still ? next_index_ - 1 : next_index_.load());
+        ended_index_ = next_index_;
+        return now;
     }
     if (!started_) first_display_time_ = monotonic_now();
     return frame(static_cast<std::uint64_t>(std::max<Nanoseconds>(monotonic_now() - first_display_time_, 0) /
@@ -99,7 +101,16 @@ void FrameClock::step(std::uint64_t frames) {
     stepped_.notify_all();
 }
 
+bool FrameClock::steps_done() const {
+    const std::lock_guard lock(mutex_);
+    return steps_ == 0 && ended_index_ >= next_index_;
+}
+
 void FrameClock::end_frame(const FrameTime& frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_index_ = frame.index + 1;
+    }
     if (mode_ != TimeMode::Real) return;
     const Nanoseconds late = std::max<Nanoseconds>(monotonic_now() - first_display_time_, 0);
     const auto shown = std::max(frame.index, static_cast<std::uint64_t>((late + period_ - 1) / period_));

@@ -48,8 +48,10 @@ class FrameClock {
     FrameTime tick();
     /// Stepped time: lets so many frames more begin.
     void step(std::uint64_t frames);
+    /// All frames that were asked for were handed in, or dropped for later ones.
+    bool steps_done() const;
 
-    /// The client handed that frame in: in real time it is shown with the next display period.
+    /// The client handed that frame in; in real time it is shown with the next display period.
     void end_frame(const FrameTime& frame);
     /// No frame is expected before the next one.
     void pause();
@@ -70,9 +72,10 @@ class FrameClock {
     std::atomic<bool> started_ = false;
     std::atomic<std::uint64_t> next_index_ = 0, missed_frames_ = 0;
 
-    std::mutex mutex_;  // what follows
+    mutable std::mutex mutex_;  // what follows
     std::condition_variable_any stepped_;
     std::uint64_t steps_ = 0;
+    std::uint64_t ended_index_ = 0;  // first frame that was not handed in
     std::optional<std::uint64_t> last_shown_;
 };
 

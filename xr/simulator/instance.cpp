@@ -1,7 +1,10 @@
 #include "xr/simulator/instance.h"
 
+#include <unistd.h>
 #include <utility>
 
+#include "xr/simulator/control_commands.h"
+#include "xr/simulator/control_path.h"
 #include "xr/simulator/openxr_vulkan.h"
 #include "xr/simulator/optics.h"
 #include "xr/simulator/vulkan_device.h"
@@ -19,7 +22,7 @@ Script make_script(const Options& options) {
     if (!options.session.empty()) session = read_session(options.session);
     const std::string headset = session ? session->headset : "ci";
     return Script(read_headset_profile(options.profile.empty() ? headset : options.profile),
-                  std::move(session), options.faults);
+                  {std::move(session), options.pattern, options.gaze, options.faults});
 }
 
 /// Where an instance with a loss left the script.
@@ -93,9 +96,54 @@ Instance::Instance(std::set<std::string, std::less<>> features)
         played_until_ = ScriptedFault::start - 1;
         play_faults(ScriptedFault::start);
     }
+    if (options_.control.empty()) return;
+    if (options_.control == control_socket_path(getpid()) && is_listening(options_.control)) {
+        report(options_.control.string() + ": this program's second headset has no control socket");
+        return;
+    }
+    control_ = std::make_unique<ControlSocket>(
+        options_.control, [this](const std::string& line) { return run_command(*this, line); });
+}
+
+void Instance::stage(Change change) {
+    {
+        const std::lock_guard lock(staged_mutex_);
+        staged_.push_back(std::move(change));
+    }
+    if (!status_.running) make_staged_changes(clock_.session_time(clock_.now()));
+}
+
+void Instance::stage(ScriptedFault fault) {
+    stage([this, fault](Nanoseconds time) mutable {
+        Nanoseconds played_until;
+        {
+            const std::lock_guard lock(mutex_);
+            played_until = played_until_;
+        }
+        fault.time = time;
+        const bool waits_for_no_frame = time <= played_until || !status_.running;
+        if (is_of_instance(fault.kind) && waits_for_no_frame) return play(fault);
+        if (is_of_session(fault.kind)) fault.time = std::max(time, played_until + 1);
+        script_.faults().add(fault);
+    });
+}
+
+void Instance::make_staged_changes(Nanoseconds time) {
+    std::vector<Change> changes;
+    {
+        const std::lock_guard lock(staged_mutex_);
+        changes.swap(staged_);
+    }
+    for (const Change& change : changes) change(time);
+}
+
+void Instance::wake_control() {
+    const std::lock_guard lock(control_mutex_);
+    if (control_) control_->wake();
 }
 
 std::vector<ScriptedFault> Instance::play_faults(Nanoseconds time) {
+    make_staged_changes(time);
     Nanoseconds after;
     {
         const std::lock_guard lock(mutex_);
@@ -225,6 +273,11 @@ VkInstance Instance::vulkan_instance_of(VkPhysicalDevice device) const {
 }
 
 void Instance::on_destroy() {
+    {
+        std::unique_lock control_lock(control_mutex_);
+        const auto closing = std::move(control_);
+        control_lock.unlock();
+    }
     const std::lock_guard lock(mutex_);
     destroyed_ = true;
     suggestions_.clear();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <openxr/openxr.h>
 #include <vulkan/vulkan.h>
 
+#include "xr/simulator/control_socket.h"
 #include "xr/simulator/debug_utils.h"
 #include "xr/simulator/events.h"
 #include "xr/simulator/failing_calls.h"
@@ -39,6 +41,14 @@ std::vector<Extension> supported_extensions();
 /// OpenXR 1.1 where the headers have it, else 1.0, with the patch number of the headers.
 constexpr XrVersion supported_api_version =
     XR_MAKE_VERSION(1, has_openxr_1_1 ? 1 : 0, XR_VERSION_PATCH(XR_CURRENT_API_VERSION));
+
+/// What an instance's session is at; its newest one's. Safe to use from any thread.
+struct Status {
+    std::atomic<XrSessionState> state = XR_SESSION_STATE_UNKNOWN;  // unknown: there is no session
+    std::atomic<bool> running = false;
+    std::atomic<std::uint64_t> frame = 0;  // the newest one's index
+    std::atomic<std::uint64_t> waited_frames = 0, ended_frames = 0, session_ends = 0;  // of all sessions
+};
 
 struct SuggestedBinding {
     std::shared_ptr<Action> action;
@@ -72,6 +82,14 @@ class Instance : public Object {
     std::vector<XrViewConfigurationType> view_configurations() const;
     std::vector<XrEnvironmentBlendMode> blend_modes() const;
     bool supports(XrViewConfigurationType type) const;
+
+    Status& status() { return status_; }
+    /// Does it when the script is played next, that is with the next frame; at once while no session runs.
+    using Change = std::function<void(Nanoseconds session_time)>;
+    void stage(Change change);
+    void stage(ScriptedFault fault);
+    /// The script was played, or a frame or session ended.
+    void wake_control();
 
     /// Plays the script's faults up to a session time. Those that concern a session are the caller's.
     std::vector<ScriptedFault> play_faults(Nanoseconds time);
@@ -109,6 +127,7 @@ class Instance : public Object {
 
   private:
     void play(const ScriptedFault& fault);
+    void make_staged_changes(Nanoseconds time);
 
     std::set<std::string, std::less<>> features_;
     Options options_;
@@ -122,6 +141,9 @@ class Instance : public Object {
     std::atomic<std::uint32_t> swapchain_timeouts_ = 0;
 
     std::mutex plug_mutex_;  // taken before mutex_
+    Status status_;
+    std::mutex staged_mutex_;
+    std::vector<Change> staged_;
 
     EventQueue events_;
     DebugUtils debug_;
@@ -135,6 +157,9 @@ class Instance : public Object {
     bool has_session_ = false;
     Nanoseconds played_until_;  // session time
     bool loses_ = false;        // a loss was played
+
+    std::mutex control_mutex_;
+    std::unique_ptr<ControlSocket> control_;  // its thread uses all of the above
 };
 
 /// Refuses with XR_ERROR_HANDLE_INVALID or XR_ERROR_SYSTEM_INVALID.

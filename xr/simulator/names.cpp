@@ -14,8 +14,12 @@ const char* name_of(XrResult value) {
 }
 
 const char* name_of(XrStructureType value) {
+    switch (value) { XR_LIST_ENUM_XrStructureType(FOVERAY_CASE) default : return nullptr; }
+}
+
+const char* name_of(XrSessionState value) {
     switch (value) {
-        XR_LIST_ENUM_XrStructureType(FOVERAY_CASE)
+        XR_LIST_ENUM_XrSessionState(FOVERAY_CASE)
 #undef FOVERAY_CASE
             default : return nullptr;
     }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "xr/simulator/background.h"
+#include "xr/simulator/gaze_tracker.h"
+#include "xr/simulator/pattern.h"
 
 namespace foveray::simulator {
 
@@ -16,7 +18,10 @@ enum class CaptureFormat { Png, Raw };
 struct Options {
     std::string profile;  // empty: the session's headset, or "ci"
     std::filesystem::path session, faults;
+    std::optional<Pattern> pattern;
+    GazeOptions gaze;
     TimeMode time = TimeMode::Real;
+    std::filesystem::path control;  // socket; empty: none
     std::filesystem::path capture, timing;
     CaptureFormat capture_format = CaptureFormat::Png;
     std::uint64_t first_captured_frame = 0;

@@ -42,56 +42,53 @@ std::vector<ScriptedFault> read_all_faults(const foveray::Session& session, cons
 
 }  // namespace
 
-Script::Script(HeadsetProfile profile, std::optional<foveray::Session> session,
-               const std::filesystem::path& faults)
+Script::Script(HeadsetProfile profile, Sources sources)
     : profile_(std::move(profile)),
-      has_session_(session.has_value()),
-      session_(std::move(session).value_or(foveray::Session{})),
+      has_session_(sources.session.has_value()),
+      session_(std::move(sources.session).value_or(foveray::Session{})),
       hands_(has_session_ ? HandStream(session_.folder) : HandStream()),
-      faults_(read_all_faults(session_, faults, frame_period(rate_hz()))) {}
+      pattern_(sources.pattern),
+      gaze_tracker_(sources.gaze, sources.pattern),
+      faults_(read_all_faults(session_, sources.faults, frame_period(rate_hz()))) {}
 
 double Script::rate_hz() const { return has_session_ ? session_.rate_hz : profile_.rate_hz; }
 
 bool Script::ended(std::uint64_t frame_index) const { return has_session_ && frame_index >= session_.frames; }
 
+Pose Script::true_head_at(Nanoseconds time) const {
+    if (const auto commanded = overrides_.head_at(time)) return *commanded;
+    return pattern_ ? pattern_->stage_from_head(time) : session_.head_at(time);
+}
+
 Script::Head Script::head_at(Nanoseconds time) const {
     const Condition condition = faults_.at(time);
-    Head head{session_.head_at(time), condition.head_tracked ? all_location_flags : 0};
+    Head head{true_head_at(time), condition.head_tracked ? all_location_flags : 0};
     // What is lost stays as it was: known, but not measured.
     if (condition.position_lost) {
-        head.stage_from_head.position = session_.head_at(*condition.position_lost).position;
+        head.stage_from_head.position = true_head_at(*condition.position_lost).position;
         head.flags &= ~XrSpaceLocationFlags{XR_SPACE_LOCATION_POSITION_TRACKED_BIT};
     }
     if (condition.orientation_lost) {
-        head.stage_from_head.orientation = session_.head_at(*condition.orientation_lost).orientation;
+        head.stage_from_head.orientation = true_head_at(*condition.orientation_lost).orientation;
         head.flags &= ~XrSpaceLocationFlags{XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT};
     }
     return head;
 }
 
 GazeSample Script::gaze_at(Nanoseconds time) const {
-    GazeSample gaze;
-    if (!profile_.eye_tracking || faults_.at(time).gaze_lost) return gaze;
-    if (!session_.gaze.empty()) return session_.gaze_at(time);
-    gaze.time = time;
-    gaze.valid = true;
-    return gaze;
+    if (!profile_.eye_tracking || faults_.at(time).gaze_lost) return {};
+    if (const auto commanded = overrides_.gaze_at(time)) return *commanded;
+    return gaze_tracker_.at(session_, time);
 }
 
 std::optional<GazeSample> Script::rendering_gaze_at(Nanoseconds time) const {
-    const auto& samples = session_.gaze;
     if (!profile_.eye_tracking) return std::nullopt;
     if (const auto lost = faults_.at(time).gaze_lost) {
         if (*lost <= 0) return std::nullopt;
         time = *lost - 1;
     }
-    if (samples.empty()) return gaze_at(time);
-    const auto end = std::upper_bound(samples.begin(), samples.end(), time,
-                                      [](Nanoseconds t, const GazeSample& s) { return t < s.time; });
-    const auto found = std::find_if(std::make_reverse_iterator(end), samples.rend(),
-                                    [](const GazeSample& s) { return s.valid; });
-    if (found == samples.rend()) return std::nullopt;
-    return *found;
+    if (const auto commanded = overrides_.gaze_at(time); commanded && commanded->valid) return commanded;
+    return gaze_tracker_.last_valid_at(session_, time);
 }
 
 std::optional<HandJoints> Script::hand_at(int hand, Nanoseconds time) const {
@@ -105,11 +102,12 @@ std::optional<HandJoints> Script::hand_at(int hand, Nanoseconds time) const {
 }
 
 bool Script::has_controller(int hand) const {
-    return std::ranges::any_of(session_.controllers, [&](const auto& sample) { return sample.hand == hand; });
+    return overrides_.has_controller(hand) ||
+           std::ranges::any_of(session_.controllers, [&](const auto& sample) { return sample.hand == hand; });
 }
 
 ControllerState Script::controller_at(int hand, Nanoseconds time) const {
-    return session_.controller_at(hand, time);
+    return overrides_.controller_at(hand, time, session_.controller_at(hand, time));
 }
 
 Script::Presence Script::presence_at(Nanoseconds time) const {
@@ -119,7 +117,7 @@ Script::Presence Script::presence_at(Nanoseconds time) const {
 }
 
 Pose Script::upright_head_at(Nanoseconds time) const {
-    const Pose head = session_.head_at(time);
+    const Pose head = true_head_at(time);
     const vec3 forward = head.orientation * vec3(0.0f, 0.0f, -1.0f);
     Pose upright{quat(1.0f, 0.0f, 0.0f, 0.0f), head.position};
     if (std::hypot(forward.x, forward.z) > 1e-3f) {

@@ -59,6 +59,8 @@ void Session::on_destroy() {
     {
         const std::lock_guard lock(mutex_);
         destroyed_ = true;
+        note_running(false);
+        instance_->status().state = XR_SESSION_STATE_UNKNOWN;
         instance_->events().forget(handle_of(*this));
         instance_->release_session();
         no_wait_.request_stop();
@@ -86,7 +88,16 @@ bool Session::focused() const {
     return lifecycle_.focused();
 }
 
+void Session::note_running(bool running) {
+    Status& status = instance_->status();
+    if (status.running.exchange(running) && !running) {
+        ++status.session_ends;
+        instance_->wake_control();
+    }
+}
+
 void Session::announce(XrSessionState state) {
+    instance_->status().state = state;
     instance_->events().push(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
                                                             handle_of(*this), state,
                                                             instance_->clock().now()});
@@ -98,6 +109,7 @@ void Session::begin(XrViewConfigurationType configuration) {
     const FrameClock& clock = instance_->clock();
     user_present_ = instance_->script().faults().at(clock.session_time(clock.now())).user_present;
     announce_presence();
+    note_running(true);
     no_wait_ = {};
     instance_->clock().pause();
     configuration_ = configuration;
@@ -117,6 +129,7 @@ void Session::play_without_frames() {
 void Session::end() {
     const std::lock_guard lock(mutex_);
     lifecycle_.end();
+    note_running(false);
     frame_taken_.notify_all();
 }
 
@@ -195,6 +208,7 @@ void Session::play(const ScriptedFault& fault) {
 void Session::play_script(const FrameTime& frame) {
     const Script& script = instance_->script();
     const Nanoseconds time = instance_->clock().session_time(frame.display_time);
+    instance_->status().frame = frame.index;
     for (const ScriptedFault& fault : instance_->play_faults(time)) play(fault);
     const Condition condition = script.faults().at(time);
     compositor_frame_ = condition.compositor_frame;
@@ -232,6 +246,7 @@ Session::WaitedFrame Session::wait_frame() {
     frame_taken_.notify_all();
     verify_running();
     waited_ = frame;
+    ++instance_->status().waited_frames;
     play_script(frame);
     if (TimingFile* timing = instance_->timing()) {
         timing->waited(frame, instance_->clock().session_time(frame.display_time), called);
@@ -291,9 +306,6 @@ void Session::end_frame(const XrFrameEndInfo& info) {
 
     TimingFile::End end{TimingFile::now(), info.layerCount, 0, {}};
     if (!headless()) end.composition_ms = show(frame, configuration, info);  // which shows no layers
-    instance_->clock().end_frame(frame);
-    end.missed_frames = instance_->clock().missed_frames();
-    if (TimingFile* timing = instance_->timing()) timing->ended(frame, end);
 
     const Script& script = instance_->script();
     lock.lock();
@@ -302,6 +314,12 @@ void Session::end_frame(const XrFrameEndInfo& info) {
     // The last frame of the script is on display: stop before the client waits for another.
     if (script.ended(frame.index + 1) && lifecycle_.running())
         lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    ++instance_->status().ended_frames;
+    instance_->clock().end_frame(frame);
+    instance_->wake_control();
+    lock.unlock();
+    end.missed_frames = instance_->clock().missed_frames();
+    if (TimingFile* timing = instance_->timing()) timing->ended(frame, end);
 }
 
 }  // namespace foveray::simulator

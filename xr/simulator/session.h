@@ -76,6 +76,7 @@ class Session : public Object {
 
   private:
     void announce(XrSessionState state);
+    void note_running(bool running);
     void play_script(const FrameTime& frame);
     void play(const ScriptedFault& fault);
     void lose(Nanoseconds at);

@@ -9,8 +9,9 @@ namespace foveray::simulator_tests {
 void set_environment(const std::map<std::string, std::string>& variables) {
     setenv("XR_RUNTIME_JSON", SIMULATOR_MANIFEST, 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
-    for (const char* name : {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT",
-                             "BACKGROUND", "WINDOW", "GPU", "TIMING", "FAULTS"}) {
+    for (const char* name :
+         {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT", "BACKGROUND", "WINDOW", "GPU",
+          "TIMING", "FAULTS", "CONTROL", "PATTERN", "GAZE"}) {
         unsetenv((std::string("FOVERAY_SIMULATOR_") + name).c_str());
     }
     for (const auto& [name, value] : variables)

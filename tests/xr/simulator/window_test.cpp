@@ -1,6 +1,7 @@
 // foveray-simulator-window on a virtual display: it shows the eyes' pictures, and comes and goes without the
 // client.
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include "tests/xr/simulator/composed.h"
+#include "xr/simulator/window/head_control.h"
 
 namespace foveray::simulator_tests {
 namespace {
@@ -150,6 +152,46 @@ TEST_F(Window, WithoutADesktopTheClientGoesOn) {
     open();
     EXPECT_TRUE(until([] { return window_process() == 0; }));
     for (int i = 0; i < 5; ++i) show_opaque(left_, right_);
+}
+
+TEST_F(Window, ItsInputMovesHeadAndGaze) {
+    start({{"CAPTURE", ""}, {"CONTROL", "1"}}, XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO);
+    const XrSpace stage = client_->reference_space(XR_REFERENCE_SPACE_TYPE_STAGE),
+                  view = client_->reference_space(XR_REFERENCE_SPACE_TYPE_VIEW);
+    const auto head_after_a_frame = [&] {
+        return client_->locate(view, stage, client_->empty_frame().predictedDisplayTime).pose;
+    };
+    simulator::SharedPictures::Description shown;
+    shown.fov = {Fov{-pi / 4, pi / 4, pi / 4, -pi / 4}, Fov{-pi / 4, pi / 4, pi / 4, -pi / 4}};
+    shown.stage_from_head.position = {0, 1.6f, 0};
+    simulator::HeadControl control(getpid());
+    simulator::PictureWindow::Input input;
+    input.dragged = {-1.0f, 0.0f};  // as far as the picture is high, 90 degrees
+    control.apply(input, shown, 0.01f);
+    EXPECT_TRUE(
+        until([&] { return std::abs(head_after_a_frame().orientation.y - std::sin(pi / 4)) < 1e-5; }));
+    input = {};
+    input.scrolled = 5.0f;
+    input.pushed = {1.0f, 0.0f, 0.0f};  // to its right, which is along -z now
+    control.apply(input, shown, 0.5f);
+    EXPECT_TRUE(until([&] { return std::abs(head_after_a_frame().position.x + 0.5f) < 1e-5; }));
+    EXPECT_NEAR(head_after_a_frame().position.z, -0.5f, 1e-5);
+
+    const auto focus_middle = [&] {
+        const XrTime time = client_->empty_frame().predictedDisplayTime;
+        const XrFovf fov = client_->locate_views(stage, time, type_, true)[2].fov;
+        return (std::tan(fov.angleLeft) + std::tan(fov.angleRight)) / 2;
+    };
+    input = {};
+    input.pointed_eye = 0;
+    input.pointed = {0.7f, 0.5f};
+    control.apply(input, shown, 0.01f);
+    EXPECT_TRUE(until([&] { return std::abs(focus_middle() - 0.4f) < 1e-4; }));
+    input = {};
+    input.reset = true;
+    control.apply(input, shown, 0.01f);
+    EXPECT_TRUE(
+        until([&] { return head_after_a_frame().orientation.w == 1.0f && std::abs(focus_middle()) < 1e-5; }));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // foveray-simulator-window: shows what a simulated headset shows, and moves its wearer's head. The headset's
 // library starts it (xr/simulator/window_feed.h).
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "xr/simulator/window/head_control.h"
 #include "xr/simulator/window/picture_window.h"
 #include "xr/simulator/window/shared_pictures.h"
 
@@ -71,9 +73,15 @@ void run(const std::string& client) {
                       "set FOVERAY_SIMULATOR_WINDOW=1");
     PictureWindow window("foveray simulated headset of process " + client);
     Pictures pictures;
+    HeadControl control(static_cast<pid_t>(std::strtol(client.c_str(), nullptr, 10)));
+    auto last = std::chrono::steady_clock::now();
     while (!window.is_closing() && is_client_there()) {
         if (pictures.take(*shared)) show(window, pictures);
         window.update();
+        const auto now = std::chrono::steady_clock::now();
+        const float seconds = std::chrono::duration<float>(now - last).count();
+        last = now;
+        if (pictures.number > 0) control.apply(window.input(), pictures.description, seconds);
     }
 }
 
