@@ -215,10 +215,9 @@ fs::path assets_folder() {
         throw_bad_input(std::string("FOVERAY_ASSETS=") + variable, "is not a folder", "unset or correct it");
     }
     std::error_code ignored;
-    for (const fs::path& folder : {fs::read_symlink("/proc/self/exe", ignored).parent_path(), own_folder()}) {
-        for (const fs::path& assets : {folder / "../share/foveray/assets", folder / "assets"}) {
-            if (!folder.empty() && fs::is_directory(assets, ignored)) return assets.lexically_normal();
-        }
+    const fs::path folder = own_folder();  // not the program's, which may be anybody's
+    for (const fs::path& assets : {folder / "../share/foveray/assets", folder / "assets"}) {
+        if (!folder.empty() && fs::is_directory(assets, ignored)) return assets.lexically_normal();
     }
     const fs::path source = fs::path(FOVERAY_SOURCE_DIR) / "assets";
     if (fs::is_directory(source, ignored)) return source;

@@ -47,7 +47,8 @@ HeadsetProfile read_headset_profile(const std::string& name_or_file);
 /// Writes what read_headset_profile reads; the name is the file's. Throws Fault(BadInput) when it cannot.
 void write_headset_profile(const std::filesystem::path& file, const HeadsetProfile& profile);
 
-/// Folder that holds assets at run time: $FOVERAY_ASSETS, beside the program, or the source tree.
+/// Folder that holds assets at run time: $FOVERAY_ASSETS, beside the program or library that this code is part of,
+/// or the source tree.
 std::filesystem::path assets_folder();
 
 }  // namespace foveray

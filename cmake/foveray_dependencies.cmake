@@ -10,6 +10,7 @@ find_package(Vulkan REQUIRED)
 find_package(VulkanMemoryAllocator REQUIRED)
 find_package(OpenXR REQUIRED)
 find_package(glfw3 REQUIRED)
+find_package(OpenGL REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 # Debian keeps OpenCV's CMake files in the package that pulls in every module, so find the few we use by hand.

@@ -1,7 +1,14 @@
-# foveray_shaders(TARGET SHADERS files… [INCLUDES folders…]): compiles GLSL below shaders/ to SPIR-V and embeds it; gpu::shader() finds it
-# by its path below shaders/. Editing a shader or anything it includes rebuilds it.
+# foveray_shaders(TARGET SHADERS files… [INCLUDES folders…] [ENVIRONMENT vulkan1.0] [NAMESPACE foveray::gpu]): compiles GLSL below shaders/
+# to SPIR-V for that Vulkan (1.3 unless told otherwise) and embeds it in a function embedded_shaders() of that namespace, by path below
+# shaders/; gpu::shader() looks there. Editing a shader or anything it includes rebuilds it.
 function(foveray_shaders target)
-  cmake_parse_arguments(arg "" "" "SHADERS;INCLUDES" ${ARGN})
+  cmake_parse_arguments(arg "" "ENVIRONMENT;NAMESPACE" "SHADERS;INCLUDES" ${ARGN})
+  if(NOT arg_ENVIRONMENT)
+    set(arg_ENVIRONMENT vulkan1.3)
+  endif()
+  if(NOT arg_NAMESPACE)
+    set(arg_NAMESPACE foveray::gpu)
+  endif()
   list(TRANSFORM arg_INCLUDES PREPEND -I)
   set(table "")
   set(headers "")
@@ -11,7 +18,7 @@ function(foveray_shaders target)
     set(header ${CMAKE_CURRENT_BINARY_DIR}/spirv/${symbol}.h)
     add_custom_command(
       OUTPUT ${header}
-      COMMAND ${GLSLANG_VALIDATOR} --target-env vulkan1.3 -g0 -I${CMAKE_SOURCE_DIR} -I${CMAKE_SOURCE_DIR}/shaders ${arg_INCLUDES}
+      COMMAND ${GLSLANG_VALIDATOR} --target-env ${arg_ENVIRONMENT} -g0 -I${CMAKE_SOURCE_DIR} -I${CMAKE_SOURCE_DIR}/shaders ${arg_INCLUDES}
               --depfile ${header}.d --vn ${symbol} -o ${header} ${source}
       DEPENDS ${source}
       DEPFILE ${header}.d
@@ -28,7 +35,7 @@ function(foveray_shaders target)
 #include <utility>
 
 @includes@
-namespace foveray::gpu {
+namespace @arg_NAMESPACE@ {
 
 std::span<const std::pair<std::string_view, std::span<const std::uint32_t>>> embedded_shaders() {
     static const std::pair<std::string_view, std::span<const std::uint32_t>> table[] = {
@@ -36,7 +43,7 @@ std::span<const std::pair<std::string_view, std::span<const std::uint32_t>>> emb
     return table;
 }
 
-}  // namespace foveray::gpu
+}  // namespace @arg_NAMESPACE@
 ")
   add_library(${target} STATIC ${CMAKE_CURRENT_BINARY_DIR}/${target}_table.cpp ${headers})
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"render/user_shapes",
      {"base", "shaders/shared", "render/gpu", "render/scene", "render/engine", "render"}},
     {"xr/client", {"base", "render/gpu"}},
-    {"xr/simulator", {"base"}},
+    {"xr/simulator", {"base", "shaders/shared"}},
     {"passthrough/capture", {"base", "passthrough"}},
     {"passthrough", {"base", "shaders/shared", "render/gpu"}},
     {"app",
@@ -39,7 +39,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> library_homes =
     {"openxr/", {"xr/client", "xr/simulator"}},
     {"tiny_gltf.h", {"render/scene"}},
     {"glslang/", {"render/user_shapes"}},
-    {"GLFW/", {"app"}},
+    {"GLFW/", {"app", "xr/simulator"}},
     {"imgui", {"app"}},
     {"vk_mem_alloc.h", {"render/gpu"}},
 };

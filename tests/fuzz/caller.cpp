@@ -19,6 +19,11 @@ const std::vector<const char*> extensions{
     XR_EXT_HAND_TRACKING_EXTENSION_NAME,
     XR_VARJO_QUAD_VIEWS_EXTENSION_NAME,
     XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME,
+#ifdef XR_VERSION_1_1
+    XR_KHR_LOCATE_SPACES_EXTENSION_NAME,
+    XR_EXT_LOCAL_FLOOR_EXTENSION_NAME,
+    XR_EXT_USER_PRESENCE_EXTENSION_NAME,
+#endif
 };
 
 const std::vector<std::string> path_texts{
@@ -41,6 +46,7 @@ const std::vector<std::string> path_texts{
     "/user/hand/left/input/thumbstick/x",
     "/user/hand/left/input/grip/pose",
     "/user/hand/right/input/aim/pose",
+    "/user/hand/left/input/grip_surface/pose",
     "/user/hand/left/output/haptic",
     "/user/eyes_ext/input/gaze_ext/pose",
     "/user/gamepad/input/a/click",
@@ -57,6 +63,7 @@ Functions::Functions(const simulator_tests::DirectRuntime& runtime) {
     };
 #define FOVERAY_LOAD(name) load(name, #name);
     FOVERAY_FUZZED_FUNCTIONS(FOVERAY_LOAD)
+    FOVERAY_FUZZED_FUNCTIONS_OF_1_1(FOVERAY_LOAD)
 #undef FOVERAY_LOAD
     xrDestroyInstance(instance);
 }

@@ -94,10 +94,16 @@ namespace foveray::fuzz {
     _(xrSetInputDeviceStateVector2fEXT)           \
     _(xrSetInputDeviceLocationEXT)
 // clang-format on
+#ifdef XR_VERSION_1_1
+#define FOVERAY_FUZZED_FUNCTIONS_OF_1_1(_) _(xrLocateSpacesKHR)
+#else
+#define FOVERAY_FUZZED_FUNCTIONS_OF_1_1(_)
+#endif
 
 struct Functions {
 #define FOVERAY_MEMBER(name) PFN_##name name = nullptr;
     FOVERAY_FUZZED_FUNCTIONS(FOVERAY_MEMBER)
+    FOVERAY_FUZZED_FUNCTIONS_OF_1_1(FOVERAY_MEMBER)
 #undef FOVERAY_MEMBER
 
     /// Those of extensions come from an instance that has them all. Ends the program when one is missing.

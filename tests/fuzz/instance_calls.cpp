@@ -9,7 +9,9 @@ void create_instance(Caller& c) {
     if (c.handles.all<XrInstance>().size() >= most_instances) return;
     auto& info = c.structure<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
     c.write_name(info.applicationInfo.applicationName);
-    info.applicationInfo.apiVersion = c.random.chance(95) ? XR_MAKE_VERSION(1, 0, 0) : c.random.bits();
+    info.applicationInfo.apiVersion = c.random.chance(45)   ? XR_MAKE_VERSION(1, 0, 0)
+                                      : c.random.chance(90) ? XR_CURRENT_API_VERSION
+                                                            : c.random.bits();
     info.createFlags = c.random.chance(98) ? 0 : c.random.bits();
     if (c.random.chance(90)) {
         info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());

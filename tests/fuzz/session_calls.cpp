@@ -192,6 +192,29 @@ void locate_space(Caller& c) {
     c.call.xrLocateSpace(c.handle<XrSpace>(), c.handle<XrSpace>(), c.time(), c.maybe(location));
 }
 
+#ifdef XR_VERSION_1_1
+void locate_spaces(Caller& c) {
+    constexpr std::size_t most = 8;
+    auto* spaces = c.array<XrSpace>(most);
+    for (std::size_t i = 0; i < most; ++i) spaces[i] = c.handle<XrSpace>();
+    const auto count = [&] {
+        return static_cast<std::uint32_t>(c.random.chance(80) ? 3 : c.random.below(most));
+    };
+    auto& info = c.structure<XrSpacesLocateInfo>(XR_TYPE_SPACES_LOCATE_INFO);
+    info.baseSpace = c.handle<XrSpace>();
+    info.time = c.time();
+    info.spaceCount = count();
+    info.spaces = c.maybe(*spaces);
+    auto& velocities = *c.array<XrSpaceVelocities>(1);
+    velocities = {XR_TYPE_SPACE_VELOCITIES, nullptr, count(), c.maybe(*c.array<XrSpaceVelocityData>(most))};
+    auto& locations = c.structure<XrSpaceLocations>(XR_TYPE_SPACE_LOCATIONS);
+    if (c.random.chance(50)) locations.next = &velocities;
+    locations.locationCount = count();
+    locations.locations = c.maybe(*c.array<XrSpaceLocationData>(most));
+    c.call.xrLocateSpacesKHR(c.handle<XrSession>(), c.maybe(info), c.maybe(locations));
+}
+#endif
+
 void destroy_space(Caller& c) {
     const auto space = c.handle<XrSpace>();
     if (c.call.xrDestroySpace(space) == XR_SUCCESS) c.handles.remember_dead(space);
@@ -260,6 +283,9 @@ std::vector<Call> session_calls() {
             {"xrCreateReferenceSpace", 15, create_reference_space},
             {"xrCreateActionSpace", 10, create_action_space},
             {"xrLocateSpace", 30, locate_space},
+#ifdef XR_VERSION_1_1
+            {"xrLocateSpacesKHR", 10, locate_spaces},
+#endif
             {"xrDestroySpace", 10, destroy_space},
             {"xrCreateSwapchain", 10, create_swapchain},
             {"xrDestroySwapchain", 5, destroy_swapchain},

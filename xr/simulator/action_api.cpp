@@ -116,16 +116,20 @@ xrSuggestInteractionProfileBindings(XrInstance instance, const XrInteractionProf
         verify(info->countSuggestedBindings > 0 && info->suggestedBindings != nullptr);
         const std::string path = object->paths().text(info->interactionProfile);
         const InteractionProfile* profile = find_interaction_profile(path);
-        verify(profile != nullptr &&
-                   (path != eye_gaze_profile_path || object->has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)),
-               XR_ERROR_PATH_UNSUPPORTED);
+        verify(profile != nullptr && object->has(profile->feature), XR_ERROR_PATH_UNSUPPORTED);
         std::vector<SuggestedBinding> bindings;
         for (std::uint32_t i = 0; i < info->countSuggestedBindings; ++i) {
             const XrActionSuggestedBinding& binding = info->suggestedBindings[i];
             const auto action = get<Action>(binding.action);
             verify(&action->set().instance() == object.get(), XR_ERROR_HANDLE_INVALID);
             verify(!action->set().attached(), XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
-            verify(profile->knows(object->paths().text(binding.binding)), XR_ERROR_PATH_UNSUPPORTED);
+            const std::string source_path = object->paths().text(binding.binding);
+            verify(std::ranges::any_of(profile->sources,
+                                       [&](const InputSource& source) {
+                                           return object->has(source.feature) &&
+                                                  source.answers_to(source_path);
+                                       }),
+                   XR_ERROR_PATH_UNSUPPORTED);
             bindings.push_back({action, binding.binding});
         }
         object->suggest(path, std::move(bindings));

@@ -15,7 +15,8 @@ std::string read_user_path(const Session& session, XrPath path) {
 const InputSource& read_source(const Session& session, XrPath user_path, XrPath path, InputKind kind) {
     const std::string user = read_user_path(session, user_path);
     const InputSource* source = find_source(session.instance().paths().text(path), kind);
-    verify(source && source->user == user, XR_ERROR_PATH_UNSUPPORTED);
+    verify(source && source->user == user && session.instance().has(source->feature),
+           XR_ERROR_PATH_UNSUPPORTED);
     return *source;
 }
 
@@ -36,7 +37,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrSetInputDeviceActiveEXT(XrSession session, XrPa
         const InteractionProfile* profile =
             find_interaction_profile(object->instance().paths().text(interaction_profile));
         const std::string user = read_user_path(*object, user_path);
-        verify(profile && profile->has_user(user), XR_ERROR_PATH_UNSUPPORTED);
+        verify(profile && profile->has_user(user) && object->instance().has(profile->feature),
+               XR_ERROR_PATH_UNSUPPORTED);
         object->devices().set_active(user, *profile, active);
     });
 }

@@ -1,33 +1,30 @@
 #pragma once
 
-#include <array>
-#include <span>
+#include <filesystem>
+#include <vector>
 
-#include "base/headset_profile.h"
+#include "base/image.h"
+#include "xr/simulator/compositor.h"
 #include "xr/simulator/layers.h"
-#include "xr/simulator/merge.h"
 #include "xr/simulator/options.h"
 #include "xr/simulator/vulkan_device.h"
 
 namespace foveray::simulator {
 
-/// Writes what the headset shows as PNG: each view as submitted, and one merged picture an eye, opaque over
-/// black.
+/// Writes what the headset shows as files: each view of the rearmost projection layer as submitted, and what
+/// each eye is shown.
 class Capture {
   public:
-    Capture(const Options& options, const HeadsetProfile& profile, VulkanDevice& device)
-        : options_(options), profile_(profile), device_(device) {}
+    Capture(const Options& options, VulkanDevice& device) : options_(options), device_(device) {}
 
     bool wants(std::uint64_t frame) const { return options_.captures(frame); }
     /// Uses the client's queue and waits for it. Throws Fault when a file cannot be written.
-    void write(std::uint64_t frame, std::span<const ProjectionLayer> layers);
+    void write(std::uint64_t frame, const std::vector<Layer>& layers, const EyePictures& shown);
 
   private:
-    ViewPicture read(const ProjectionLayer& layer, const ProjectionView& view);
-    FloatImage show(std::span<const std::vector<ViewPicture>> layers, std::size_t eye) const;
+    std::vector<Image> read_views(const Projection& projection);
 
     const Options& options_;
-    const HeadsetProfile& profile_;
     VulkanDevice& device_;
     VulkanDevice::Buffer buffer_;
 };

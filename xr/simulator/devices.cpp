@@ -30,14 +30,6 @@ std::optional<ComponentOf> component_of(const InputSource& source) {
     return ComponentOf{path.substr(0, path.size() - 2), path.back() == 'x' ? 0 : 1};
 }
 
-/// Where an automated hand is until the client places it: before the chest.
-Placement resting_place(int hand) {
-    return {Placement::Carrier::Stage,
-            {quat(1.0f, 0.0f, 0.0f, 0.0f), vec3(hand == 0 ? -0.2f : 0.2f, 1.2f, -0.4f)},
-            all_location_flags,
-            0};
-}
-
 }  // namespace
 
 bool Devices::automates(std::string_view user_path) const { return automated_ && user_path != eyes_path; }
@@ -84,7 +76,8 @@ Placement Devices::place(const InputSource& source, XrTime time) const {
         const std::lock_guard lock(mutex_);
         const auto found = placements_.find(source.path);
         if (found != placements_.end()) return found->second;
-        if (hand && automated_) return resting_place(*hand);
+        if (hand && automated_)
+            return {Placement::Carrier::Stage, resting_hand(*hand), all_location_flags, 0};
     }
     if (!hand) return place_gaze(script.gaze_at(session_time), clock);
     const ControllerState state = script.controller_at(*hand, session_time);

@@ -16,13 +16,17 @@ class EventQueue {
     /// A client that never polls loses the oldest events, and is told how many.
     static constexpr std::size_t capacity = 1000;
 
-    /// `event` is one of the XrEventData structures of a session.
+    /// `event` is one of the XrEventData structures, of a session or the instance.
     template <typename Event>
     void push(const Event& event) {
         static_assert(sizeof(Event) <= sizeof(XrEventDataBuffer));
         XrEventDataBuffer data;
         std::memcpy(&data, &event, sizeof event);
-        push(event.session, data);
+        if constexpr (requires { event.session; }) {
+            push(event.session, data);
+        } else {
+            push(XR_NULL_HANDLE, data);
+        }
     }
     /// False when there is none.
     bool pop(XrEventDataBuffer& event);

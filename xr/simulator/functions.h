@@ -3,10 +3,12 @@
 #include <string_view>
 #include <type_traits>
 
+#include "xr/simulator/openxr_1_1.h"
 #include "xr/simulator/openxr_vulkan.h"
 
-/// Every OpenXR function of the runtime with the extension that brings it ("" for the core). The *_api.cpp
-/// files define them: they verify arguments; what a call does stands in the object's own file.
+/// Every OpenXR function of the runtime with the feature that brings it: an extension, OpenXR 1.1, or "" for
+/// the core of 1.0. The *_api.cpp files define them: they verify arguments; what a call does stands in the
+/// object's own file.
 #define FOVERAY_SIMULATOR_FUNCTIONS(_)                                                \
     _(xrGetInstanceProcAddr, "")                                                      \
     _(xrEnumerateApiLayerProperties, "")                                              \
@@ -39,6 +41,8 @@
     _(xrGetReferenceSpaceBoundsRect, "")                                              \
     _(xrCreateActionSpace, "")                                                        \
     _(xrLocateSpace, "")                                                              \
+    _(xrLocateSpaces, openxr_1_1)                                                     \
+    _(xrLocateSpacesKHR, XR_KHR_LOCATE_SPACES_EXTENSION_NAME)                         \
     _(xrDestroySpace, "")                                                             \
     _(xrEnumerateSwapchainFormats, "")                                                \
     _(xrCreateSwapchain, "")                                                          \
@@ -92,14 +96,18 @@
 
 namespace foveray::simulator {
 
-#define FOVERAY_DECLARE(name, extension) std::remove_pointer_t<PFN_##name> name;
+#define FOVERAY_DECLARE(name, feature) std::remove_pointer_t<PFN_##name> name;
 FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_DECLARE)
 #undef FOVERAY_DECLARE
 
+/// What a function's handle belongs to.
+enum class Owner { None, Instance, Session };
+
 struct FunctionEntry {
     std::string_view name;
-    PFN_xrVoidFunction function;
-    std::string_view extension;
+    PFN_xrVoidFunction function;  // for clients: asks the script first whether the call fails
+    std::string_view feature;
+    Owner owner;
 };
 
 /// nullptr when there is none of that name.

@@ -65,6 +65,15 @@ std::shared_ptr<Object> find_root(std::uint64_t id) {
     return found != r.entries.end() ? found->second.object : nullptr;
 }
 
+std::shared_ptr<Object> find_ancestor(std::uint64_t id, XrObjectType type) {
+    Registry& r = registry();
+    const std::shared_lock lock(r.mutex);
+    auto found = r.entries.find(id);
+    while (found != r.entries.end() && found->second.type != type)
+        found = r.entries.find(found->second.parent);
+    return found != r.entries.end() ? found->second.object : nullptr;
+}
+
 bool destroy_object(std::uint64_t id, XrObjectType type) {
     std::vector<std::shared_ptr<Object>> doomed;  // parents first
     {

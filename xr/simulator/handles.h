@@ -35,6 +35,8 @@ std::uint64_t register_object(std::shared_ptr<Object> object, XrObjectType type,
 std::shared_ptr<Object> find_object(std::uint64_t id, XrObjectType type);
 /// The instance that an object belongs to; nullptr when it is gone.
 std::shared_ptr<Object> find_root(std::uint64_t id);
+/// The object itself or the nearest one above it that has that type; nullptr when there is none.
+std::shared_ptr<Object> find_ancestor(std::uint64_t id, XrObjectType type);
 /// The object and its children. False when there is none.
 bool destroy_object(std::uint64_t id, XrObjectType type);
 

@@ -10,7 +10,7 @@
 
 #include "base/frame.h"
 
-/// What controllers have: OpenXR 1.0, section 6.4, and XR_EXT_eye_gaze_interaction.
+/// What controllers have: OpenXR 1.0, section 6.4, OpenXR 1.1, section 6.4, and XR_EXT_eye_gaze_interaction.
 namespace foveray::simulator {
 
 enum class InputKind { Boolean, Float, Vector2, Pose, Haptic };
@@ -21,18 +21,21 @@ struct InputSource {
     std::string user;       // /user/hand/left
     std::string component;  // /input/trigger/value
     InputKind kind = InputKind::Boolean;
+    std::string_view feature;  // that brings it, as of Instance::has
+
+    /// The path means it: its own, or its identifier's, such as .../trigger of .../trigger/value.
+    bool answers_to(std::string_view path_text) const;
 };
 
 struct InteractionProfile {
     std::string path;
-    std::string name;  // for people
+    std::string name;          // for people
+    std::string_view feature;  // that brings it, as of Instance::has
     std::vector<InputSource> sources;
 
     /// The source that a suggested path means for an action: the source itself, or the fitting component of
     /// an identifier, such as .../trigger/value of .../trigger. nullptr when the kinds do not go together.
     const InputSource* find(std::string_view path_text, XrActionType type) const;
-    /// The path names a source of this profile or the identifier of one.
-    bool knows(std::string_view path_text) const;
     /// It has sources of that user path.
     bool has_user(std::string_view user_path) const;
 };
@@ -41,14 +44,13 @@ std::span<const InteractionProfile> interaction_profiles();
 /// nullptr when there is none of that path.
 const InteractionProfile* find_interaction_profile(std::string_view path);
 
-inline constexpr std::string_view eye_gaze_profile_path = "/interaction_profiles/ext/eye_gaze_interaction";
 inline constexpr std::string_view left_hand_path = "/user/hand/left";
 inline constexpr std::string_view right_hand_path = "/user/hand/right";
 inline constexpr std::string_view eyes_path = "/user/eyes_ext";
 inline constexpr std::string_view user_paths[] = {left_hand_path, right_hand_path, "/user/head",
                                                   "/user/gamepad", eyes_path};
 bool is_user_path(std::string_view path);
-/// The source of that path and kind in any profile; nullptr when there is none.
+/// The source of that path and kind in the oldest profile that has it; nullptr when there is none.
 const InputSource* find_source(std::string_view path, InputKind kind);
 
 /// 0 or 1 of a hand's path.

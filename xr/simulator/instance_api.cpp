@@ -20,11 +20,6 @@ void name_value(char* buffer, const char* known, const char* unknown_prefix, int
     }
 }
 
-bool is_supported(std::string_view extension) {
-    const auto extensions = supported_extensions();
-    return std::ranges::find(extensions, extension, &Extension::name) != extensions.end();
-}
-
 }  // namespace
 
 XRAPI_ATTR XrResult XRAPI_CALL xrGetInstanceProcAddr(XrInstance instance, const char* name,
@@ -42,8 +37,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetInstanceProcAddr(XrInstance instance, const 
                    XR_ERROR_HANDLE_INVALID);
         } else {
             const auto object = get<Instance>(instance);
-            verify(entry && (entry->extension.empty() || object->has(entry->extension)),
-                   XR_ERROR_FUNCTION_UNSUPPORTED);
+            verify(entry && object->has(entry->feature), XR_ERROR_FUNCTION_UNSUPPORTED);
         }
         *function = entry->function;
     });
@@ -83,16 +77,22 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateInstance(const XrInstanceCreateInfo* info
         fixed_text(application.engineName, XR_ERROR_NAME_INVALID);
         verify(info->enabledApiLayerCount == 0, XR_ERROR_API_LAYER_NOT_PRESENT);
         verify(info->enabledExtensionCount == 0 || info->enabledExtensionNames != nullptr);
-        std::set<std::string, std::less<>> extensions;
+        const auto supported = supported_extensions();
+        std::set<std::string, std::less<>> features;
         for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
             const char* const name = info->enabledExtensionNames[i];
             verify(name != nullptr);
-            verify(is_supported(name), XR_ERROR_EXTENSION_NOT_PRESENT);
-            extensions.emplace(name);
+            verify(std::ranges::find(supported, name, &Extension::name) != supported.end(),
+                   XR_ERROR_EXTENSION_NOT_PRESENT);
+            features.emplace(name);
         }
-        verify(!extensions.contains(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME) ||
-               extensions.contains(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME));
-        *instance = add_object(std::make_shared<Instance>(std::move(extensions)), 0);
+        if (XR_VERSION_MINOR(application.apiVersion) >= 1) {
+            features.emplace(openxr_1_1);
+            features.insert(std::begin(promoted_to_1_1), std::end(promoted_to_1_1));
+        }
+        verify(!features.contains(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME) ||
+               features.contains(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME));
+        *instance = add_object(std::make_shared<Instance>(std::move(features)), 0);
     });
 }
 

@@ -28,6 +28,7 @@ xrNegotiateLoaderRuntimeInterface(const foveray::simulator::NegotiateLoaderInfo*
     if (!is_loader_info(loader) || !is_runtime_request(runtime)) return XR_ERROR_INITIALIZATION_FAILED;
     runtime->runtime_interface_version = interface_version;
     runtime->runtime_api_version = supported_api_version;
-    runtime->get_instance_proc_addr = foveray::simulator::xrGetInstanceProcAddr;
+    runtime->get_instance_proc_addr =
+        reinterpret_cast<PFN_xrGetInstanceProcAddr>(find_function("xrGetInstanceProcAddr")->function);
     return XR_SUCCESS;
 }

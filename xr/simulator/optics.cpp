@@ -16,6 +16,16 @@ TangentRange place(float centre, float width, TangentRange limits) {
     return {low, std::min(low + width, limits.high)};
 }
 
+/// Pixels a unit of tangent.
+vec2 density(const HeadsetProfile::ViewProfile& view) {
+    return vec2(view.size) / vec2(std::tan(view.fov.right) - std::tan(view.fov.left),
+                                  std::tan(view.fov.up) - std::tan(view.fov.down));
+}
+
+std::uint32_t even(float size) {
+    return std::max(2u, 2u * static_cast<std::uint32_t>(std::lround(size / 2.0f)));
+}
+
 std::vector<vec2> outline_of(const HeadsetProfile& profile, Eye eye) {
     std::vector<vec2> outline = profile.hidden_outline;
     if (eye == Eye::Right) {
@@ -52,6 +62,19 @@ Fov foveated_fov(const HeadsetProfile& profile, const HeadsetProfile::ViewProfil
     // Rounding must not push an edge past the context's.
     return {std::max(std::atan(left), context.left), std::min(std::atan(right), context.right),
             std::min(std::atan(up), context.up), std::max(std::atan(down), context.down)};
+}
+
+EyeDisplay eye_display(const HeadsetProfile& profile, XrViewConfigurationType type, Eye eye, float max_size) {
+    const auto views = views_of(profile, type);
+    const auto index = static_cast<std::size_t>(eye);
+    const HeadsetProfile::ViewProfile& context = views[index];
+    vec2 size(context.size);
+    if (views.size() == 4) {
+        const vec2 ratio = density(views[2 + index]) / density(context);
+        size *= std::max({1.0f, ratio.x, ratio.y});  // one factor, so that pixels keep their shape
+    }
+    size *= std::min(1.0f, max_size / std::max(size.x, size.y));
+    return {eye, context.fov, {even(size.x), even(size.y)}, head_from_eye(profile, eye)};
 }
 
 Pose head_from_eye(const HeadsetProfile& profile, Eye eye) {

@@ -18,4 +18,9 @@ inline constexpr XrSpaceLocationFlags all_location_flags =
     XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT |
     XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
 
+/// The stage's pose of a hand (0 left, 1 right) that nobody placed: before the chest.
+inline Pose resting_hand(int hand) {
+    return {quat(1.0f, 0.0f, 0.0f, 0.0f), vec3(hand == 0 ? -0.2f : 0.2f, 1.2f, -0.4f)};
+}
+
 }  // namespace foveray::simulator

@@ -5,82 +5,90 @@
 #include <set>
 #include <utility>
 
+#include "xr/simulator/frame_clock.h"
+#include "xr/simulator/placement.h"
 #include "xr/simulator/verify.h"
 
 namespace foveray::simulator {
 
-std::optional<Script::EventKind> Script::event_kind(std::string_view name) {
-    static constexpr std::pair<std::string_view, EventKind> names[] = {
-        {"exit", EventKind::Exit},
-        {"session_loss", EventKind::SessionLoss},
-        {"session_pause", EventKind::SessionPause},
-        {"focus_lost", EventKind::FocusLost},
-        {"focus_gained", EventKind::FocusGained},
-        {"visibility_lost", EventKind::VisibilityLost},
-        {"visibility_gained", EventKind::VisibilityGained},
-        {"head_tracking_lost", EventKind::HeadLost},
-        {"head_tracking_gained", EventKind::HeadGained},
-        {"visibility_mask_removed", EventKind::MaskRemoved},
-        {"visibility_mask_restored", EventKind::MaskRestored},
-        {"recenter", EventKind::Recentre},
-    };
-    for (const auto& [known, kind] : names) {
-        if (known == name) return kind;
-    }
-    return std::nullopt;
-}
+namespace {
 
-Script::Script(HeadsetProfile profile) : profile_(std::move(profile)) {}
-
-Script::Script(HeadsetProfile profile, foveray::Session session)
-    : profile_(std::move(profile)),
-      session_(std::move(session)),
-      hands_(session_.folder),
-      has_session_(true) {
+/// The events of a session that are the headset's.
+std::vector<ScriptedFault> read_events(const foveray::Session& session) {
+    const std::string file = (session.folder / "events.csv").string();
+    std::vector<ScriptedFault> faults;
     std::set<std::string> unknown;
-    for (const foveray::Session::Event& event : session_.events) {
-        if (const auto kind = event_kind(event.name)) {
-            events_.push_back({event.time, *kind});
+    for (const foveray::Session::Event& event : session.events) {
+        if (is_fault_name(event.name)) {
+            const std::string where = file + ": " + event.name + " at " + std::to_string(event.time) + " ns";
+            faults.push_back(
+                parse_fault(event.time, event.name, takes_value(event.name) ? event.value : "", where));
         } else if (unknown.insert(event.name).second) {
-            report((session_.folder / "events.csv").string() + ": event '" + event.name +
+            report(file + ": event '" + event.name +
                    "' is left to the client; docs/simulator.md lists those that the headset plays");
         }
     }
+    return faults;
 }
+
+std::vector<ScriptedFault> read_all_faults(const foveray::Session& session, const std::filesystem::path& file,
+                                           Nanoseconds frame_period) {
+    std::vector<ScriptedFault> faults = read_events(session);
+    if (file.empty()) return faults;
+    const auto others = read_faults(file, frame_period);
+    faults.insert(faults.end(), others.begin(), others.end());
+    return faults;
+}
+
+}  // namespace
+
+Script::Script(HeadsetProfile profile, Sources sources)
+    : profile_(std::move(profile)),
+      has_session_(sources.session.has_value()),
+      session_(std::move(sources.session).value_or(foveray::Session{})),
+      hands_(has_session_ ? HandStream(session_.folder) : HandStream()),
+      pattern_(sources.pattern),
+      gaze_tracker_(sources.gaze, sources.pattern),
+      faults_(read_all_faults(session_, sources.faults, frame_period(rate_hz()))) {}
 
 double Script::rate_hz() const { return has_session_ ? session_.rate_hz : profile_.rate_hz; }
 
 bool Script::ended(std::uint64_t frame_index) const { return has_session_ && frame_index >= session_.frames; }
 
+Pose Script::true_head_at(Nanoseconds time) const {
+    if (const auto commanded = overrides_.head_at(time)) return *commanded;
+    return pattern_ ? pattern_->stage_from_head(time) : session_.head_at(time);
+}
+
 Script::Head Script::head_at(Nanoseconds time) const {
-    Head head{session_.head_at(time), true};
-    for (const Event& event : events_) {
-        if (event.time > time) break;
-        if (event.kind == EventKind::HeadLost) head.tracked = false;
-        if (event.kind == EventKind::HeadGained) head.tracked = true;
+    const Condition condition = faults_.at(time);
+    Head head{true_head_at(time), condition.head_tracked ? all_location_flags : 0};
+    // What is lost stays as it was: known, but not measured.
+    if (condition.position_lost) {
+        head.stage_from_head.position = true_head_at(*condition.position_lost).position;
+        head.flags &= ~XrSpaceLocationFlags{XR_SPACE_LOCATION_POSITION_TRACKED_BIT};
+    }
+    if (condition.orientation_lost) {
+        head.stage_from_head.orientation = true_head_at(*condition.orientation_lost).orientation;
+        head.flags &= ~XrSpaceLocationFlags{XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT};
     }
     return head;
 }
 
 GazeSample Script::gaze_at(Nanoseconds time) const {
-    GazeSample gaze;
-    if (!profile_.eye_tracking) return gaze;
-    if (!session_.gaze.empty()) return session_.gaze_at(time);
-    gaze.time = time;
-    gaze.valid = true;
-    return gaze;
+    if (!profile_.eye_tracking || faults_.at(time).gaze_lost) return {};
+    if (const auto commanded = overrides_.gaze_at(time)) return *commanded;
+    return gaze_tracker_.at(session_, time);
 }
 
 std::optional<GazeSample> Script::rendering_gaze_at(Nanoseconds time) const {
-    const auto& samples = session_.gaze;
     if (!profile_.eye_tracking) return std::nullopt;
-    if (samples.empty()) return gaze_at(time);
-    const auto end = std::upper_bound(samples.begin(), samples.end(), time,
-                                      [](Nanoseconds t, const GazeSample& s) { return t < s.time; });
-    const auto found = std::find_if(std::make_reverse_iterator(end), samples.rend(),
-                                    [](const GazeSample& s) { return s.valid; });
-    if (found == samples.rend()) return std::nullopt;
-    return *found;
+    if (const auto lost = faults_.at(time).gaze_lost) {
+        if (*lost <= 0) return std::nullopt;
+        time = *lost - 1;
+    }
+    if (const auto commanded = overrides_.gaze_at(time); commanded && commanded->valid) return commanded;
+    return gaze_tracker_.last_valid_at(session_, time);
 }
 
 std::optional<HandJoints> Script::hand_at(int hand, Nanoseconds time) const {
@@ -94,53 +102,22 @@ std::optional<HandJoints> Script::hand_at(int hand, Nanoseconds time) const {
 }
 
 bool Script::has_controller(int hand) const {
-    return std::ranges::any_of(session_.controllers, [&](const auto& sample) { return sample.hand == hand; });
+    return overrides_.has_controller(hand) ||
+           std::ranges::any_of(session_.controllers, [&](const auto& sample) { return sample.hand == hand; });
 }
 
 ControllerState Script::controller_at(int hand, Nanoseconds time) const {
-    return session_.controller_at(hand, time);
+    return overrides_.controller_at(hand, time, session_.controller_at(hand, time));
 }
 
 Script::Presence Script::presence_at(Nanoseconds time) const {
-    bool focused = true, visible = true;
-    for (const Event& event : events_) {
-        if (event.time > time) break;
-        if (event.kind == EventKind::FocusLost) focused = false;
-        if (event.kind == EventKind::FocusGained) focused = true;
-        if (event.kind == EventKind::VisibilityLost) visible = false;
-        if (event.kind == EventKind::VisibilityGained) visible = true;
-    }
-    if (!visible) return Presence::Hidden;
-    return focused ? Presence::Focused : Presence::Visible;
-}
-
-bool Script::has_happened(EventKind kind, Nanoseconds time) const {
-    return std::ranges::any_of(events_,
-                               [&](const Event& event) { return event.time <= time && event.kind == kind; });
-}
-
-bool Script::exit_asked_at(Nanoseconds time) const { return has_happened(EventKind::Exit, time); }
-
-bool Script::session_lost_at(Nanoseconds time) const { return has_happened(EventKind::SessionLoss, time); }
-
-bool Script::paused(Nanoseconds after, Nanoseconds until) const {
-    return std::ranges::any_of(events_, [&](const Event& event) {
-        return event.kind == EventKind::SessionPause && event.time > after && event.time <= until;
-    });
-}
-
-bool Script::has_visibility_mask_at(Nanoseconds time) const {
-    bool has_mask = true;
-    for (const Event& event : events_) {
-        if (event.time > time) break;
-        if (event.kind == EventKind::MaskRemoved) has_mask = false;
-        if (event.kind == EventKind::MaskRestored) has_mask = true;
-    }
-    return has_mask;
+    const Condition condition = faults_.at(time);
+    if (!condition.visible || !condition.user_present) return Presence::Hidden;
+    return condition.focused ? Presence::Focused : Presence::Visible;
 }
 
 Pose Script::upright_head_at(Nanoseconds time) const {
-    const Pose head = session_.head_at(time);
+    const Pose head = true_head_at(time);
     const vec3 forward = head.orientation * vec3(0.0f, 0.0f, -1.0f);
     Pose upright{quat(1.0f, 0.0f, 0.0f, 0.0f), head.position};
     if (std::hypot(forward.x, forward.z) > 1e-3f) {
@@ -150,18 +127,13 @@ Pose Script::upright_head_at(Nanoseconds time) const {
 }
 
 Pose Script::stage_from_local_at(Nanoseconds time) const {
-    const auto recentred = recentrings(-1, time);
-    return upright_head_at(recentred.empty() ? 0 : recentred.back());
+    return upright_head_at(faults_.last_recentring(time));
 }
 
-std::vector<Nanoseconds> Script::recentrings(Nanoseconds after, Nanoseconds until) const {
-    std::vector<Nanoseconds> times;
-    for (const Event& event : events_) {
-        if (event.kind == EventKind::Recentre && event.time > after && event.time <= until) {
-            times.push_back(event.time);
-        }
-    }
-    return times;
+Pose Script::stage_from_local_floor_at(Nanoseconds time) const {
+    Pose floor = stage_from_local_at(time);
+    floor.position.y = 0.0f;
+    return floor;
 }
 
 }  // namespace foveray::simulator

@@ -2,29 +2,39 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
+
+#include <openxr/openxr.h>
 
 #include "base/headset_profile.h"
 #include "base/session.h"
+#include "xr/simulator/faults.h"
+#include "xr/simulator/gaze_tracker.h"
 #include "xr/simulator/hands.h"
+#include "xr/simulator/overrides.h"
 
 namespace foveray::simulator {
 
-/// What happens to the simulated headset, as pure functions of session time: poses, gaze, controllers and
-/// events. Without a session, or for a stream that it lacks, the head stands still at 1.6 m and looks
-/// straight ahead.
+/// What happens to the simulated headset, as functions of session time: poses, gaze, controllers and faults.
+/// Without a session, or for a stream that it lacks, the head stands still at 1.6 m and looks straight ahead.
 class Script {
   public:
     enum class Presence { Focused, Visible, Hidden };
 
     struct Head {
         Pose stage_from_head;
-        bool tracked = true;
+        XrSpaceLocationFlags flags = 0;  // what the trackers know of it
     };
 
-    explicit Script(HeadsetProfile profile);
-    /// Events that the simulator does not know stay the client's; they are reported once.
-    Script(HeadsetProfile profile, foveray::Session session);
+    struct Sources {
+        std::optional<foveray::Session> session;
+        std::optional<Pattern> pattern;  // in the place of a session's head and gaze
+        GazeOptions gaze;
+        std::filesystem::path faults;  // a file; empty: none
+    };
+
+    /// Events that the simulator does not know stay the client's; they are reported once. Throws
+    /// Fault(BadInput).
+    Script(HeadsetProfile profile, Sources sources);
 
     const HeadsetProfile& profile() const { return profile_; }
     /// Frames a second: the session's, or else the profile's.
@@ -33,57 +43,39 @@ class Script {
     bool ended(std::uint64_t frame_index) const;
 
     Head head_at(Nanoseconds time) const;
-    /// In the head's frame; the newest measurement at or before `time`.
+    /// In the head's frame; the newest measurement that is there at `time`.
     GazeSample gaze_at(Nanoseconds time) const;
     /// Where gaze-contingent views look: the last valid gaze, held through blinks; nothing before any.
     std::optional<GazeSample> rendering_gaze_at(Nanoseconds time) const;
-    /// The script has that controller at any time.
+    /// The script, or a command, has that controller at any time.
     bool has_controller(int hand) const;
     ControllerState controller_at(int hand, Nanoseconds time) const;
 
     /// The stream hands.csv, or without it hands round the controllers; nothing while the hand is not seen.
     std::optional<HandJoints> hand_at(int hand, Nanoseconds time) const;
 
+    Overrides& overrides() { return overrides_; }
+    Faults& faults() { return faults_; }
+    const Faults& faults() const { return faults_; }
+    /// What an absent wearer and the faults leave of a session's rights.
     Presence presence_at(Nanoseconds time) const;
-    bool exit_asked_at(Nanoseconds time) const;
-    bool session_lost_at(Nanoseconds time) const;
-    /// The session is asked to pause in (after, until].
-    bool paused(Nanoseconds after, Nanoseconds until) const;
-    /// The profile's hidden area is told to clients.
-    bool has_visibility_mask_at(Nanoseconds time) const;
     /// The local space: upright, at the head's place when the session began or was last recentred.
     Pose stage_from_local_at(Nanoseconds time) const;
-    /// Times of recentring in (after, until].
-    std::vector<Nanoseconds> recentrings(Nanoseconds after, Nanoseconds until) const;
+    /// The same place and heading on the stage's floor.
+    Pose stage_from_local_floor_at(Nanoseconds time) const;
 
   private:
-    enum class EventKind {
-        Exit,
-        SessionLoss,
-        SessionPause,
-        FocusLost,
-        FocusGained,
-        VisibilityLost,
-        VisibilityGained,
-        HeadLost,
-        HeadGained,
-        MaskRemoved,
-        MaskRestored,
-        Recentre
-    };
-    struct Event {
-        Nanoseconds time;
-        EventKind kind;
-    };
-    static std::optional<EventKind> event_kind(std::string_view name);
-    bool has_happened(EventKind kind, Nanoseconds time) const;
+    Pose true_head_at(Nanoseconds time) const;
     Pose upright_head_at(Nanoseconds time) const;
 
     HeadsetProfile profile_;
+    bool has_session_;
     foveray::Session session_;
     HandStream hands_;
-    bool has_session_ = false;
-    std::vector<Event> events_;  // by time
+    std::optional<Pattern> pattern_;
+    GazeTracker gaze_tracker_;
+    Faults faults_;
+    Overrides overrides_;
 };
 
 }  // namespace foveray::simulator

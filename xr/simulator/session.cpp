@@ -7,6 +7,22 @@
 #include "xr/simulator/optics.h"
 
 namespace foveray::simulator {
+namespace {
+
+// Of an eye's picture, pixels a side.
+constexpr float max_captured_size = 2048.0f, max_window_size = 1024.0f;
+
+std::array<EyeDisplay, 2> eye_displays(const HeadsetProfile& profile, XrViewConfigurationType type,
+                                       float max_size) {
+    return {eye_display(profile, type, Eye::Left, max_size),
+            eye_display(profile, type, Eye::Right, max_size)};
+}
+
+std::size_t pixel_count(const std::array<EyeDisplay, 2>& eyes) {
+    return std::size_t{eyes[0].size.x} * eyes[0].size.y + std::size_t{eyes[1].size.x} * eyes[1].size.y;
+}
+
+}  // namespace
 
 Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device)
     : instance_(std::move(instance)),
@@ -14,16 +30,47 @@ Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevic
       devices_(*instance_),
       inputs_(*instance_, devices_),
       lifecycle_([this](XrSessionState state) { announce(state); }) {
-    if (device_) capture_.emplace(instance_->options(), instance_->profile(), *device_);
+    if (device_) make_compositor();
     verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
 }
 
+void Session::make_compositor() {
+    const Options& options = instance_->options();
+    if (options.capture.empty() && !options.window) return;
+    if (!device_->can_compute()) {
+        report(
+            "the queue family of the graphics binding takes no compute commands, which captures and the "
+            "window need");
+        throw Refusal{XR_ERROR_GRAPHICS_DEVICE_INVALID};
+    }
+    compositor_.emplace(*device_, options.background);
+    if (!options.capture.empty()) capture_.emplace(options, *device_);
+    if (options.window) {
+        std::size_t pixels = 0;
+        for (const XrViewConfigurationType type : instance_->view_configurations())
+            pixels =
+                std::max(pixels, pixel_count(eye_displays(instance_->profile(), type, max_captured_size)));
+        window_.emplace(*compositor_, pixels);
+    }
+}
+
 void Session::on_destroy() {
-    const std::lock_guard lock(mutex_);
-    destroyed_ = true;
-    instance_->events().forget(handle_of(*this));
-    instance_->release_session();
-    frame_taken_.notify_all();
+    const std::lock_guard end_lock(end_mutex_);
+    {
+        const std::lock_guard lock(mutex_);
+        destroyed_ = true;
+        note_running(false);
+        instance_->status().state = XR_SESSION_STATE_UNKNOWN;
+        instance_->events().forget(handle_of(*this));
+        instance_->release_session();
+        no_wait_.request_stop();
+        frame_taken_.notify_all();
+    }
+    if (window_) window_->settle();
+}
+
+void Session::release_images(const Swapchain& swapchain) {
+    if (window_) window_->release(swapchain);
 }
 
 void Session::start() {
@@ -41,7 +88,16 @@ bool Session::focused() const {
     return lifecycle_.focused();
 }
 
+void Session::note_running(bool running) {
+    Status& status = instance_->status();
+    if (status.running.exchange(running) && !running) {
+        ++status.session_ends;
+        instance_->wake_control();
+    }
+}
+
 void Session::announce(XrSessionState state) {
+    instance_->status().state = state;
     instance_->events().push(XrEventDataSessionStateChanged{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
                                                             handle_of(*this), state,
                                                             instance_->clock().now()});
@@ -50,6 +106,12 @@ void Session::announce(XrSessionState state) {
 void Session::begin(XrViewConfigurationType configuration) {
     const std::lock_guard lock(mutex_);
     lifecycle_.begin();
+    const FrameClock& clock = instance_->clock();
+    user_present_ = instance_->script().faults().at(clock.session_time(clock.now())).user_present;
+    announce_presence();
+    note_running(true);
+    no_wait_ = {};
+    instance_->clock().pause();
     configuration_ = configuration;
     view_count_ = static_cast<std::uint32_t>(views_of(instance_->profile(), configuration).size());
     waited_.reset();
@@ -60,19 +122,33 @@ void Session::begin(XrViewConfigurationType configuration) {
 
 void Session::play_without_frames() {
     const std::lock_guard lock(mutex_);
+    verify_not_lost();
     if (headless() && lifecycle_.running() && !has_frames_) play_script(instance_->clock().tick());
 }
 
 void Session::end() {
     const std::lock_guard lock(mutex_);
     lifecycle_.end();
+    note_running(false);
     frame_taken_.notify_all();
 }
 
 void Session::request_exit() {
     const std::lock_guard lock(mutex_);
-    verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
+    verify_not_lost();
     lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    no_wait_.request_stop();
+}
+
+void Session::lose(Nanoseconds at) {
+    lifecycle_.lose();
+    lost_at_ = std::min(lost_at_.value_or(at), at);
+}
+
+void Session::verify_not_lost() {
+    const FrameClock& clock = instance_->clock();
+    if (lost_at_ && clock.session_time(clock.now()) >= *lost_at_) lost_ = true;
+    verify(!lost_, XR_ERROR_SESSION_LOST);
 }
 
 void Session::change_visibility_mask(bool has_mask) {
@@ -84,37 +160,76 @@ void Session::change_visibility_mask(bool has_mask) {
     }
 }
 
-void Session::play_script(const FrameTime& frame) {
-    const Script& script = instance_->script();
-    const Nanoseconds time = instance_->clock().session_time(frame.display_time);
-    for (const Nanoseconds recentred : script.recentrings(played_until_, time)) {
-        const Pose previous = script.stage_from_local_at(recentred - 1);
-        const Pose next = script.stage_from_local_at(recentred);
-        instance_->events().push(XrEventDataReferenceSpaceChangePending{
-            XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this),
-            XR_REFERENCE_SPACE_TYPE_LOCAL, instance_->clock().time_of(recentred), XR_TRUE,
-            to_xr(inverse(previous) * next)});
-    }
-    const bool paused = script.paused(played_until_, time);
-    played_until_ = time;
-    change_visibility_mask(script.has_visibility_mask_at(time));
-    if (script.session_lost_at(time)) lifecycle_.lose();
-    if (!lifecycle_.running()) return;
-    if (script.ended(frame.index) || script.exit_asked_at(time)) {
-        lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
-    } else if (paused) {
-        lifecycle_.ask_to_stop(Lifecycle::Stop::Pause);
-    } else {
-        lifecycle_.show(script.presence_at(time));
+void Session::announce_recentring(XrReferenceSpaceType type, Nanoseconds time,
+                                  const Pose& previous_from_next) {
+    instance_->events().push(XrEventDataReferenceSpaceChangePending{
+        XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr, handle_of(*this), type,
+        instance_->clock().time_of(time), XR_TRUE, to_xr(previous_from_next)});
+}
+
+/// XR_EXT_user_presence: when a session begins, and at each change while it runs.
+void Session::announce_presence() {
+    if (!instance_->has(XR_EXT_USER_PRESENCE_EXTENSION_NAME)) return;
+    instance_->events().push(XrEventDataUserPresenceChangedEXT{XR_TYPE_EVENT_DATA_USER_PRESENCE_CHANGED_EXT,
+                                                               nullptr, handle_of(*this), user_present_});
+}
+
+void Session::play(const ScriptedFault& fault) {
+    switch (fault.kind) {
+        case FaultKind::Recentre: {
+            const Script& script = instance_->script();
+            announce_recentring(
+                XR_REFERENCE_SPACE_TYPE_LOCAL, fault.time,
+                inverse(script.stage_from_local_at(fault.time - 1)) * script.stage_from_local_at(fault.time));
+            if (!instance_->has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)) break;
+            announce_recentring(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR, fault.time,
+                                inverse(script.stage_from_local_floor_at(fault.time - 1)) *
+                                    script.stage_from_local_floor_at(fault.time));
+            break;
+        }
+        case FaultKind::SessionLoss:
+            lose(0);
+            break;
+        case FaultKind::SessionLossPending:
+            lose(fault.time + fault.span);
+            gives_notice_ = true;
+            break;
+        case FaultKind::Exit:
+            if (lifecycle_.running()) lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+            break;
+        case FaultKind::SessionPause:
+            if (lifecycle_.running()) lifecycle_.ask_to_stop(Lifecycle::Stop::Pause);
+            break;
+        default:
+            break;
     }
 }
 
+void Session::play_script(const FrameTime& frame) {
+    const Script& script = instance_->script();
+    const Nanoseconds time = instance_->clock().session_time(frame.display_time);
+    instance_->status().frame = frame.index;
+    for (const ScriptedFault& fault : instance_->play_faults(time)) play(fault);
+    const Condition condition = script.faults().at(time);
+    compositor_frame_ = condition.compositor_frame;
+    change_visibility_mask(condition.has_visibility_mask);
+    if (condition.user_present != user_present_) {
+        user_present_ = condition.user_present;
+        if (lifecycle_.running()) announce_presence();
+    }
+    if (!lifecycle_.running()) return;
+    if (script.ended(frame.index)) lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    lifecycle_.show(script.presence_at(time));
+    if (lifecycle_.stopping() || lifecycle_.lost()) no_wait_.request_stop();
+}
+
 Session::WaitedFrame Session::wait_frame() {
+    const Nanoseconds called = TimingFile::now();
     std::unique_lock lock(mutex_);
     const auto verify_running = [&] {
         verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
         verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
-        verify(!lifecycle_.lost(), XR_ERROR_SESSION_LOST);
+        verify_not_lost();
     };
     verify_running();
     frame_taken_.wait(lock, [&] { return destroyed_ || !lifecycle_.running() || (!waiting_ && !waited_); });
@@ -122,14 +237,20 @@ Session::WaitedFrame Session::wait_frame() {
 
     waiting_ = true;
     has_frames_ = true;
+    const Nanoseconds compositor_frame = compositor_frame_;
+    const std::stop_token no_wait = no_wait_.get_token();
     lock.unlock();
-    const FrameTime frame = instance_->clock().next_frame();
+    const FrameTime frame = instance_->clock().next_frame(compositor_frame, no_wait);
     lock.lock();
     waiting_ = false;
     frame_taken_.notify_all();
     verify_running();
     waited_ = frame;
+    ++instance_->status().waited_frames;
     play_script(frame);
+    if (TimingFile* timing = instance_->timing()) {
+        timing->waited(frame, instance_->clock().session_time(frame.display_time), called);
+    }
     return {frame, lifecycle_.visible() && !headless()};
 }
 
@@ -139,30 +260,66 @@ XrResult Session::begin_frame() {
     verify(waited_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const bool discarded = begun_.has_value();
     begun_ = std::exchange(waited_, std::nullopt);
+    if (TimingFile* timing = instance_->timing()) timing->begun(*begun_);
     frame_taken_.notify_all();
     return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
+}
+
+std::optional<double> Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
+                                    const XrFrameEndInfo& info) {
+    SubmittedFrame submitted;
+    submitted.layers = read_layers(*this, info);
+    const Script& script = instance_->script();
+    if (script.ended(frame.index)) return std::nullopt;
+    const bool captured = capture_ && capture_->wants(frame.index), watched = window_ && window_->is_open();
+    if (!captured && !watched) return std::nullopt;
+    submitted.blend_mode = info.environmentBlendMode;
+    submitted.index = frame.index;
+    submitted.display_time = frame.display_time;
+    submitted.stage_from_head =
+        script.head_at(instance_->clock().session_time(frame.display_time)).stage_from_head;
+    const HeadsetProfile& profile = instance_->profile();
+    if (!captured) {
+        window_->show(submitted, eye_displays(profile, configuration, max_window_size));
+        return std::nullopt;  // it composes later, if at all
+    }
+
+    if (window_) window_->settle();
+    const auto eyes = eye_displays(profile, configuration, max_captured_size);
+    compositor_->start(submitted, eyes);
+    const EyePictures shown = compositor_->finish();
+    compositor_->forget();
+    capture_->write(frame.index, submitted.layers, shown);
+    if (watched) window_->publish(submitted, eyes, shown);
+    return compositor_->gpu_milliseconds();
 }
 
 void Session::end_frame(const XrFrameEndInfo& info) {
     const std::lock_guard end_lock(end_mutex_);
     std::unique_lock lock(mutex_);
+    verify(!destroyed_, XR_ERROR_HANDLE_INVALID);
     verify(lifecycle_.running(), XR_ERROR_SESSION_NOT_RUNNING);
     verify(begun_.has_value(), XR_ERROR_CALL_ORDER_INVALID);
     const FrameTime frame = *begun_;
+    const XrViewConfigurationType configuration = configuration_;
     lock.unlock();
 
-    const Script& script = instance_->script();
-    if (!headless()) {  // which shows no layers
-        const std::vector<ProjectionLayer> layers = read_layers(*this, info);
-        if (capture_->wants(frame.index) && !script.ended(frame.index)) capture_->write(frame.index, layers);
-    }
+    TimingFile::End end{TimingFile::now(), info.layerCount, 0, {}};
+    if (!headless()) end.composition_ms = show(frame, configuration, info);  // which shows no layers
 
+    const Script& script = instance_->script();
     lock.lock();
     // Another thread may have begun the next frame meanwhile.
     if (begun_ && begun_->index == frame.index) begun_.reset();
     // The last frame of the script is on display: stop before the client waits for another.
     if (script.ended(frame.index + 1) && lifecycle_.running())
         lifecycle_.ask_to_stop(Lifecycle::Stop::ForGood);
+    ++instance_->status().ended_frames;
+    instance_->clock().end_frame(frame);
+    instance_->wake_control();
+    lock.unlock();
+    end.missed_frames = instance_->clock().missed_frames();
+    if (TimingFile* timing = instance_->timing()) timing->ended(frame, end);
 }
 
 }  // namespace foveray::simulator

@@ -13,7 +13,7 @@ namespace {
 Placement on_stage(const Placement& placement, const Script::Head& head) {
     if (placement.carrier == Placement::Carrier::Stage) return placement;
     return {Placement::Carrier::Stage, head.stage_from_head * placement.carrier_from_space,
-            head.tracked ? placement.flags : 0, placement.sample_time};
+            placement.flags & head.flags, placement.sample_time};
 }
 
 }  // namespace
@@ -33,7 +33,11 @@ Placement Space::place_origin(XrTime time) const {
             case XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO:
                 return session_->devices().place_rendering_gaze(time);
             default:
-                return {Carrier::Stage, {}, all_location_flags, 0};
+                return {Carrier::Stage,
+                        *reference == XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR
+                            ? script.stage_from_local_floor_at(clock.session_time(time))
+                            : Pose{},
+                        all_location_flags, 0};
         }
     }
     const auto& action = std::get<ActionSource>(origin_);
@@ -105,7 +109,7 @@ HeadLocation locate_head(const Space& base, XrTime time) {
     const Script::Head head = instance.script().head_at(instance.clock().session_time(time));
     const Placement b = base.place(time);
     if (b.carrier == Placement::Carrier::Head) return {inverse(b.carrier_from_space), b.flags};
-    return {inverse(b.carrier_from_space) * head.stage_from_head, head.tracked ? b.flags : 0};
+    return {inverse(b.carrier_from_space) * head.stage_from_head, b.flags & head.flags};
 }
 
 }  // namespace foveray::simulator

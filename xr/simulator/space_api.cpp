@@ -1,3 +1,6 @@
+#include <span>
+#include <vector>
+
 #include "xr/simulator/convert.h"
 #include "xr/simulator/functions.h"
 #include "xr/simulator/session.h"
@@ -9,10 +12,38 @@ namespace {
 std::vector<XrReferenceSpaceType> reference_spaces(const Instance& instance) {
     std::vector<XrReferenceSpaceType> types{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL,
                                             XR_REFERENCE_SPACE_TYPE_STAGE};
+    if (instance.has(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME)) types.push_back(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR);
     if (instance.has(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME) && instance.profile().eye_tracking) {
         types.push_back(XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO);
     }
     return types;
+}
+
+/// Of spaces in a list: the location, and where asked for the velocity.
+void locate_spaces(XrSession session, const XrSpacesLocateInfo* info, XrSpaceLocations* locations) {
+    const auto object = get<Session>(session);
+    verify_structure(info, XR_TYPE_SPACES_LOCATE_INFO);
+    verify_structure(locations, XR_TYPE_SPACE_LOCATIONS);
+    verify(info->spaceCount > 0 && info->spaces != nullptr);
+    verify(locations->locationCount == info->spaceCount && locations->locations != nullptr);
+    auto* velocities = find_output<XrSpaceVelocities>(locations->next, XR_TYPE_SPACE_VELOCITIES);
+    verify(!velocities ||
+           (velocities->velocityCount == info->spaceCount && velocities->velocities != nullptr));
+    const auto base = get<Space>(info->baseSpace);
+    verify(&base->session() == object.get());
+    std::vector<std::shared_ptr<Space>> spaces;
+    for (const XrSpace space : std::span(info->spaces, info->spaceCount)) {
+        spaces.push_back(get<Space>(space));
+        verify(&spaces.back()->session() == object.get());
+    }
+    verify(info->time > 0, XR_ERROR_TIME_INVALID);
+    for (std::size_t i = 0; i < spaces.size(); ++i) {
+        const SpaceLocation found = locate(*spaces[i], *base, info->time);
+        locations->locations[i] = {found.flags, to_xr(found.base_from_space)};
+        if (!velocities) continue;
+        const Velocity moving = velocity(*spaces[i], *base, info->time);
+        velocities->velocities[i] = {velocity_flags(moving), to_xr(moving.linear), to_xr(moving.angular)};
+    }
 }
 
 void verify_reference_space(const Instance& instance, XrReferenceSpaceType type) {
@@ -99,6 +130,16 @@ XRAPI_ATTR XrResult XRAPI_CALL xrLocateSpace(XrSpace space, XrSpace base, XrTime
             out->time = found.sample_time;
         }
     });
+}
+
+XRAPI_ATTR XrResult XRAPI_CALL xrLocateSpaces(XrSession session, const XrSpacesLocateInfo* info,
+                                              XrSpaceLocations* locations) {
+    return guarded([&] { locate_spaces(session, info, locations); });
+}
+
+XRAPI_ATTR XrResult XRAPI_CALL xrLocateSpacesKHR(XrSession session, const XrSpacesLocateInfo* info,
+                                                 XrSpaceLocations* locations) {
+    return guarded([&] { locate_spaces(session, info, locations); });
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL xrDestroySpace(XrSpace space) {

@@ -1,6 +1,8 @@
 #include "xr/simulator/swapchain.h"
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "xr/simulator/session.h"
 
@@ -34,9 +36,10 @@ VkImageCreateInfo image_info(const XrSwapchainCreateInfo& info) {
     image.arrayLayers = info.arraySize * info.faceCount;
     image.samples = static_cast<VkSampleCountFlagBits>(info.sampleCount);
     image.tiling = VK_IMAGE_TILING_OPTIMAL;
-    // The layout contract needs the attachment, captures need to read, and clients may always be copied from.
+    // The layout contract needs the attachment, composition and captures read, and clients may always be
+    // copied from.
     image.usage = vulkan_usage(info.usageFlags) | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                  VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                  VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                   (is_depth_format(format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                            : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     if (info.usageFlags & XR_SWAPCHAIN_USAGE_MUTABLE_FORMAT_BIT)
@@ -118,10 +121,19 @@ std::uint32_t Swapchain::acquire() {
     return acquired_.back();
 }
 
-void Swapchain::wait() {
-    const std::lock_guard lock(mutex_);
+XrResult Swapchain::wait(XrDuration timeout) {
+    std::unique_lock lock(mutex_);
     verify(!acquired_.empty() && !waited_, XR_ERROR_CALL_ORDER_INVALID);
+    Instance& instance = session_->instance();
+    if (timeout != XR_INFINITE_DURATION && instance.take_swapchain_timeout()) {
+        lock.unlock();
+        if (instance.clock().mode() == TimeMode::Real)
+            std::this_thread::sleep_for(std::chrono::nanoseconds(timeout));
+        return XR_TIMEOUT_EXPIRED;
+    }
+    session_->release_images(*this);
     waited_ = true;
+    return XR_SUCCESS;
 }
 
 void Swapchain::release() {
@@ -132,9 +144,19 @@ void Swapchain::release() {
     acquired_.pop_front();
 }
 
-VkImage Swapchain::shown() const {
+std::optional<std::uint32_t> Swapchain::shown() const {
     const std::lock_guard lock(mutex_);
-    return shown_ ? *images_[*shown_].image : VK_NULL_HANDLE;
+    return shown_;
+}
+
+VkImageView Swapchain::view(std::uint32_t index, std::uint32_t array_index) {
+    const std::lock_guard lock(mutex_);
+    VulkanOwned<VkImageView>& view = views_[{index, array_index}];
+    if (!*view) {
+        view = session_->device().create_view(image(index), format(), aspect(), array_index,
+                                              "simulator swapchain view");
+    }
+    return *view;
 }
 
 }  // namespace foveray::simulator

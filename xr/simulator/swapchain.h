@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -38,10 +39,14 @@ class Swapchain : public Object {
 
     // XR_ERROR_CALL_ORDER_INVALID out of order.
     std::uint32_t acquire();
-    void wait();
+    /// XR_TIMEOUT_EXPIRED when the script wants it; in real time, after so long.
+    XrResult wait(XrDuration timeout);
     void release();
-    /// What layers show: the image released last. VK_NULL_HANDLE before the first release.
-    VkImage shown() const;
+    /// What layers show: the image released last. Nothing before the first release.
+    std::optional<std::uint32_t> shown() const;
+    VkImage image(std::uint32_t index) const { return *images_[index].image; }
+    /// Of one layer's largest mip level.
+    VkImageView view(std::uint32_t index, std::uint32_t array_index);
     const Session& session() const { return *session_; }
 
   private:
@@ -51,7 +56,8 @@ class Swapchain : public Object {
     XrSwapchainCreateInfo info_;
     std::vector<VulkanDevice::Image> images_;
 
-    mutable std::mutex mutex_;
+    mutable std::mutex mutex_;  // what follows
+    std::map<std::pair<std::uint32_t, std::uint32_t>, VulkanOwned<VkImageView>> views_;
     std::uint64_t acquired_count_ = 0;    // ever
     std::deque<std::uint32_t> acquired_;  // not yet released, oldest first
     bool waited_ = false;                 // the oldest of them

@@ -87,7 +87,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrWaitSwapchainImage(XrSwapchain swapchain,
     return guarded([&] {
         const auto object = get<Swapchain>(swapchain);
         verify_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
-        object->wait();
+        return object->wait(info->timeout);
     });
 }
 

@@ -17,10 +17,11 @@ void verify_view_configuration(const Instance& instance, XrViewConfigurationType
 XRAPI_ATTR XrResult XRAPI_CALL xrGetSystem(XrInstance instance, const XrSystemGetInfo* info,
                                            XrSystemId* system) {
     return guarded([&] {
-        get<Instance>(instance);
+        const auto object = get<Instance>(instance);
         verify_structure(info, XR_TYPE_SYSTEM_GET_INFO);
         verify(system != nullptr);
         verify(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, XR_ERROR_FORM_FACTOR_UNSUPPORTED);
+        verify(object->is_plugged_in(), XR_ERROR_FORM_FACTOR_UNAVAILABLE);
         *system = Instance::system_id;
     });
 }
@@ -46,6 +47,11 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetSystemProperties(XrInstance instance, XrSyst
                 properties->next, XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT);
             hands && object->has(XR_EXT_HAND_TRACKING_EXTENSION_NAME)) {
             hands->supportsHandTracking = XR_TRUE;
+        }
+        if (auto* presence = find_output<XrSystemUserPresencePropertiesEXT>(
+                properties->next, XR_TYPE_SYSTEM_USER_PRESENCE_PROPERTIES_EXT);
+            presence && object->has(XR_EXT_USER_PRESENCE_EXTENSION_NAME)) {
+            presence->supportsUserPresence = XR_TRUE;
         }
         if (auto* foveated = find_output<XrSystemFoveatedRenderingPropertiesVARJO>(
                 properties->next, XR_TYPE_SYSTEM_FOVEATED_RENDERING_PROPERTIES_VARJO);

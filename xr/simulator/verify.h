@@ -8,6 +8,8 @@
 
 #include <openxr/openxr.h>
 
+#include "xr/simulator/call_cost.h"
+
 /// What the API files share: arguments are verified or the call is refused, and nothing thrown leaves the
 /// library.
 namespace foveray::simulator {
@@ -34,6 +36,7 @@ void tell_refusal(const char* signature, XrResult result) noexcept;
 /// Runs the body of an entry point. The body returns nothing for XR_SUCCESS, or an XrResult.
 template <typename Body>
 XrResult guarded(Body&& body, std::source_location entry = std::source_location::current()) noexcept {
+    const call_cost::Scope cost;
     object_of_call = 0;
     try {
         if constexpr (std::is_void_v<decltype(body())>) {

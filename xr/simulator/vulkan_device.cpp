@@ -24,6 +24,7 @@ VulkanInstanceFunctions::VulkanInstanceFunctions(VkInstance instance, PFN_vkGetI
     FOVERAY_LOAD(vkGetPhysicalDeviceProperties)
     FOVERAY_LOAD(vkGetPhysicalDeviceMemoryProperties)
     FOVERAY_LOAD(vkGetPhysicalDeviceImageFormatProperties)
+    FOVERAY_LOAD(vkGetPhysicalDeviceQueueFamilyProperties)
     FOVERAY_LOAD(vkGetDeviceProcAddr)
 #undef FOVERAY_LOAD
 }
@@ -65,7 +66,10 @@ VkPhysicalDevice choose_gpu(VkInstance instance, const VulkanInstanceFunctions& 
 
 VulkanDevice::VulkanDevice(VkInstance instance, VkPhysicalDevice physical, VkDevice device,
                            std::uint32_t queue_family, std::uint32_t queue_index, VulkanLoader loader)
-    : instance_functions_(instance, loader.get), physical_(physical), device_(device) {
+    : instance_functions_(instance, loader.get),
+      physical_(physical),
+      device_(device),
+      queue_family_(queue_family) {
     const auto load = [&](const char* name) { return instance_functions_.vkGetDeviceProcAddr(device, name); };
 #define FOVERAY_LOAD(name)                                       \
     functions_.name = reinterpret_cast<PFN_##name>(load(#name)); \
@@ -77,34 +81,43 @@ VulkanDevice::VulkanDevice(VkInstance instance, VkPhysicalDevice physical, VkDev
             reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(load("vkSetDebugUtilsObjectNameEXT"));
     }
     instance_functions_.vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+    VkPhysicalDeviceProperties properties{};
+    instance_functions_.vkGetPhysicalDeviceProperties(physical, &properties);
+    nanoseconds_per_tick_ = properties.limits.timestampPeriod;
+    std::uint32_t family_count = 0;
+    instance_functions_.vkGetPhysicalDeviceQueueFamilyProperties(physical, &family_count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(family_count);
+    instance_functions_.vkGetPhysicalDeviceQueueFamilyProperties(physical, &family_count, families.data());
+    verify(queue_family < families.size(), XR_ERROR_GRAPHICS_DEVICE_INVALID);
+    family_ = families[queue_family];
     functions_.vkGetDeviceQueue(device, queue_family, queue_index, &queue_);
     verify(queue_ != VK_NULL_HANDLE, XR_ERROR_GRAPHICS_DEVICE_INVALID);
-
-    const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family};
-    VkCommandPool pool = VK_NULL_HANDLE;
-    verify_vulkan(functions_.vkCreateCommandPool(device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
-    pool_ = {device, pool, functions_.vkDestroyCommandPool};
-    set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool, "simulator command pool");
-
-    const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
-                                                    pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-    verify_vulkan(functions_.vkAllocateCommandBuffers(device, &allocate_info, &commands_),
-                  "vkAllocateCommandBuffers");
-    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "simulator commands");
-
-    const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
-    VkFence fence = VK_NULL_HANDLE;
-    verify_vulkan(functions_.vkCreateFence(device, &fence_info, nullptr, &fence), "vkCreateFence");
-    fence_ = {device, fence, functions_.vkDestroyFence};
-    set_name(VK_OBJECT_TYPE_FENCE, fence, "simulator fence");
+    batch_ = create_batch("simulator commands");
 }
 
-template <typename Handle>
-void VulkanDevice::set_name(VkObjectType type, Handle handle, const std::string& name) const {
+VulkanDevice::Batch VulkanDevice::create_batch(const std::string& name) const {
+    Batch batch;
+    const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queue_family_};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateCommandPool(device_, &pool_info, nullptr, &pool), "vkCreateCommandPool");
+    batch.pool = own(pool, functions_.vkDestroyCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, name + " pool");
+    const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
+                                                    pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    verify_vulkan(functions_.vkAllocateCommandBuffers(device_, &allocate_info, &batch.commands),
+                  "vkAllocateCommandBuffers");
+    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(batch.commands), name);
+    const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+    VkFence fence = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateFence(device_, &fence_info, nullptr, &fence), "vkCreateFence");
+    batch.fence = own(fence, functions_.vkDestroyFence, VK_OBJECT_TYPE_FENCE, name + " fence");
+    return batch;
+}
+
+void VulkanDevice::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!functions_.vkSetDebugUtilsObjectNameEXT) return;
     const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr,
-                                             type, reinterpret_cast<std::uint64_t>(handle), name.c_str()};
+                                             type, handle, name.c_str()};
     functions_.vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
@@ -130,8 +143,7 @@ VulkanOwned<VkDeviceMemory> VulkanDevice::allocate(const VkMemoryRequirements& n
                                             type};
             VkDeviceMemory memory = VK_NULL_HANDLE;
             verify_vulkan(functions_.vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
-            set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name + " memory");
-            return {device_, memory, functions_.vkFreeMemory};
+            return own(memory, functions_.vkFreeMemory, VK_OBJECT_TYPE_DEVICE_MEMORY, name + " memory");
         }
     }
     report("no Vulkan memory type fits " + name);
@@ -142,8 +154,7 @@ VulkanDevice::Image VulkanDevice::create_image(const VkImageCreateInfo& info, co
     Image result;
     VkImage image = VK_NULL_HANDLE;
     verify_vulkan(functions_.vkCreateImage(device_, &info, nullptr, &image), "vkCreateImage");
-    result.image = {device_, image, functions_.vkDestroyImage};
-    set_name(VK_OBJECT_TYPE_IMAGE, image, name);
+    result.image = own(image, functions_.vkDestroyImage, VK_OBJECT_TYPE_IMAGE, name);
     VkMemoryRequirements needs{};
     functions_.vkGetImageMemoryRequirements(device_, image, &needs);
     result.memory = allocate(needs, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, name);
@@ -151,46 +162,71 @@ VulkanDevice::Image VulkanDevice::create_image(const VkImageCreateInfo& info, co
     return result;
 }
 
-VulkanDevice::Buffer VulkanDevice::create_readback_buffer(VkDeviceSize size, const std::string& name) const {
+VulkanOwned<VkImageView> VulkanDevice::create_view(VkImage image, VkFormat format, VkImageAspectFlags aspect,
+                                                   std::uint32_t array_layer, const std::string& name) const {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspect, 0, 1, array_layer, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    verify_vulkan(functions_.vkCreateImageView(device_, &info, nullptr, &view), "vkCreateImageView");
+    return own(view, functions_.vkDestroyImageView, VK_OBJECT_TYPE_IMAGE_VIEW, name);
+}
+
+VulkanDevice::Buffer VulkanDevice::create_buffer(VkDeviceSize size, VkBufferUsageFlags usage, Place place,
+                                                 const std::string& name) const {
     Buffer result;
     result.size = size;
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = size;
-    info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    info.usage = usage;
     VkBuffer buffer = VK_NULL_HANDLE;
     verify_vulkan(functions_.vkCreateBuffer(device_, &info, nullptr, &buffer), "vkCreateBuffer");
-    result.buffer = {device_, buffer, functions_.vkDestroyBuffer};
-    set_name(VK_OBJECT_TYPE_BUFFER, buffer, name);
+    result.buffer = own(buffer, functions_.vkDestroyBuffer, VK_OBJECT_TYPE_BUFFER, name);
     VkMemoryRequirements needs{};
     functions_.vkGetBufferMemoryRequirements(device_, buffer, &needs);
-    result.memory =
-        allocate(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                 VK_MEMORY_PROPERTY_HOST_CACHED_BIT, name);
+    constexpr auto host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    result.memory = place == Place::Gpu ? allocate(needs, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, name)
+                    : place == Place::Upload
+                        ? allocate(needs, host, 0, name)
+                        : allocate(needs, host, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, name);
     verify_vulkan(functions_.vkBindBufferMemory(device_, buffer, *result.memory, 0), "vkBindBufferMemory");
-    void* mapped = nullptr;
-    verify_vulkan(functions_.vkMapMemory(device_, *result.memory, 0, VK_WHOLE_SIZE, 0, &mapped),
-                  "vkMapMemory");
-    result.mapped = mapped;
+    if (place != Place::Gpu) {
+        verify_vulkan(functions_.vkMapMemory(device_, *result.memory, 0, VK_WHOLE_SIZE, 0, &result.mapped),
+                      "vkMapMemory");
+    }
     return result;
 }
 
 void VulkanDevice::submit(const std::function<void(VkCommandBuffer)>& record) {
-    const std::lock_guard lock(submit_mutex_);
-    verify_vulkan(functions_.vkResetCommandPool(device_, *pool_, 0), "vkResetCommandPool");
+    const std::lock_guard lock(batch_mutex_);
+    start(batch_, record);
+    finish(batch_);
+}
+
+void VulkanDevice::start(const Batch& batch, const std::function<void(VkCommandBuffer)>& record) {
+    verify_vulkan(functions_.vkResetCommandPool(device_, *batch.pool, 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo begin_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                               VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
-    verify_vulkan(functions_.vkBeginCommandBuffer(commands_, &begin_info), "vkBeginCommandBuffer");
-    record(commands_);
-    verify_vulkan(functions_.vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    verify_vulkan(functions_.vkBeginCommandBuffer(batch.commands, &begin_info), "vkBeginCommandBuffer");
+    record(batch.commands);
+    verify_vulkan(functions_.vkEndCommandBuffer(batch.commands), "vkEndCommandBuffer");
 
     VkSubmitInfo submit_info{};
     submit_info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     submit_info.commandBufferCount = 1;
-    submit_info.pCommandBuffers = &commands_;
-    const VkFence fence = *fence_;
+    submit_info.pCommandBuffers = &batch.commands;
+    const VkFence fence = *batch.fence;
     verify_vulkan(functions_.vkResetFences(device_, 1, &fence), "vkResetFences");
+    const std::lock_guard lock(queue_mutex_);
     verify_vulkan(functions_.vkQueueSubmit(queue_, 1, &submit_info, fence), "vkQueueSubmit");
+}
+
+void VulkanDevice::finish(const Batch& batch) const {
+    const VkFence fence = *batch.fence;
     verify_vulkan(functions_.vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
 }
 

@@ -1,4 +1,5 @@
 // The library itself: negotiation, function lookup, handles, and what every call refuses.
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -16,7 +17,7 @@ TEST(EntryPoints, NegotiationStatesVersionsAndRefusesStrangers) {
     ASSERT_EQ(runtime.negotiate(&loader, &request), XR_SUCCESS);
     EXPECT_EQ(request.interface, 1u);
     EXPECT_EQ(XR_VERSION_MAJOR(request.api), 1u);
-    EXPECT_EQ(XR_VERSION_MINOR(request.api), 0u);
+    EXPECT_EQ(XR_VERSION_MINOR(request.api), XR_VERSION_MINOR(XR_CURRENT_API_VERSION));
     EXPECT_EQ(runtime.negotiate(nullptr, &request), XR_ERROR_INITIALIZATION_FAILED);
     EXPECT_EQ(runtime.negotiate(&loader, nullptr), XR_ERROR_INITIALIZATION_FAILED);
     LoaderInfo future;
@@ -73,6 +74,18 @@ TEST(EntryPoints, ExtensionsAreListedOnce) {
     EXPECT_EQ(names.count(XR_KHR_VULKAN_ENABLE_EXTENSION_NAME), 1u);
 }
 
+TEST(EntryPoints, QuadViewsAreOfferedForFocusDisplaysOnly) {
+    for (const auto& [profile, has_focus] :
+         {std::pair{"ci", true}, {"varjo-xr1", true}, {"quest-pro", false}}) {
+        set_environment({{"PROFILE", profile}});
+        const auto offered = offered_extensions();
+        for (const std::string name :
+             {XR_VARJO_QUAD_VIEWS_EXTENSION_NAME, XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME}) {
+            EXPECT_EQ(std::ranges::count(offered, name), has_focus ? 1 : 0) << profile << ' ' << name;
+        }
+    }
+}
+
 TEST(EntryPoints, InstanceCreationVerifiesItsArguments) {
     set_environment({});
     XrInstanceCreateInfo info{};
@@ -93,8 +106,18 @@ TEST(EntryPoints, InstanceCreationVerifiesItsArguments) {
 TEST(EntryPoints, BadVariablesFailTheInstanceAndSayWhy) {
     fakes::TemporaryFolder folder;
     const std::map<std::string, std::string> cases[] = {
-        {{"TIME", "fast"}},          {{"GPU", "first"}},           {{"CAPTURE_FRAMES", "5"}},
-        {{"CAPTURE_FRAMES", "5:2"}}, {{"PROFILE", "no-such-one"}}, {{"SESSION", folder.path()}},
+        {{"TIME", "fast"}},
+        {{"GPU", "first"}},
+        {{"CAPTURE_FRAMES", "5"}},
+        {{"CAPTURE_FRAMES", "5:2"}},
+        {{"PROFILE", "no-such-one"}},
+        {{"SESSION", folder.path()}},
+        {{"CAPTURE_FORMAT", "bmp"}},
+        {{"BACKGROUND", "#12345"}},
+        {{"BACKGROUND", "#12345g"}},
+        {{"BACKGROUND", "no/such/file.hdr"}},
+        {{"BACKGROUND", "no/such/*.png"}},
+        {{"BACKGROUND", folder.path()}},
     };
     for (const auto& variables : cases) {
         set_environment(variables);

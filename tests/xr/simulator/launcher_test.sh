@@ -29,6 +29,10 @@ SESSION
 code=0
 "$launcher" -- sh -c 'exit 7' || code=$?
 [ "$code" = 7 ] || { echo "exit code $code instead of 7"; exit 1; }
+code=0
+"$launcher" --timing "$work/no/such/folder.csv" -- "$foveray" view "$FOVERAY_ASSETS/scenes/primitives.json" --runtime system \
+    2>"$work/log" || code=$?
+[ "$code" != 0 ] && grep -q "FOVERAY_SIMULATOR_TIMING=$work/no/such/folder.csv" "$work/log" || fail "a timing file without a folder"
 for wrong in "--headset ci -- true" "--profile" "--profile --" "true" "--"; do
     code=0
     # shellcheck disable=SC2086

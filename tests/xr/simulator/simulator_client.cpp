@@ -1,5 +1,6 @@
 #include "tests/xr/simulator/simulator_client.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -8,18 +9,34 @@ namespace foveray::simulator_tests {
 void set_environment(const std::map<std::string, std::string>& variables) {
     setenv("XR_RUNTIME_JSON", SIMULATOR_MANIFEST, 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
-    for (const char* name : {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "GPU"}) {
+    for (const char* name :
+         {"PROFILE", "SESSION", "CAPTURE", "CAPTURE_FRAMES", "CAPTURE_FORMAT", "BACKGROUND", "WINDOW", "GPU",
+          "TIMING", "FAULTS", "CONTROL", "PATTERN", "GAZE"}) {
         unsetenv((std::string("FOVERAY_SIMULATOR_") + name).c_str());
     }
     for (const auto& [name, value] : variables)
         setenv(("FOVERAY_SIMULATOR_" + name).c_str(), value.c_str(), 1);
 }
 
-SimulatorClient::SimulatorClient(const std::vector<const char*>& extensions) {
+std::vector<const char*> offered_extensions() {
+    std::uint32_t count = 0;
+    EXPECT_EQ(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr), XR_SUCCESS);
+    XrExtensionProperties blank{};
+    blank.type = XR_TYPE_EXTENSION_PROPERTIES;
+    std::vector<XrExtensionProperties> list(count, blank);
+    EXPECT_EQ(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, list.data()), XR_SUCCESS);
+    std::vector<const char*> names = all_extensions;
+    std::erase_if(names, [&](const std::string& name) {
+        return std::ranges::none_of(list, [&](const auto& offered) { return name == offered.extensionName; });
+    });
+    return names;
+}
+
+SimulatorClient::SimulatorClient(const std::vector<const char*>& extensions, XrVersion version) {
     XrInstanceCreateInfo info{};
     info.type = XR_TYPE_INSTANCE_CREATE_INFO;
     std::strcpy(info.applicationInfo.applicationName, "simulator tests");
-    info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+    info.applicationInfo.apiVersion = version;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.enabledExtensionNames = extensions.data();
     EXPECT_EQ(xrCreateInstance(&info, &instance), XR_SUCCESS);
@@ -78,6 +95,7 @@ std::vector<XrSessionState> SimulatorClient::take_states() {
         const XrResult result = xrPollEvent(instance, &event);
         if (result == XR_EVENT_UNAVAILABLE) return states;
         EXPECT_EQ(result, XR_SUCCESS);
+        if (result != XR_SUCCESS) return states;
         if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
             const auto& change = reinterpret_cast<const XrEventDataSessionStateChanged&>(event);
             EXPECT_EQ(change.session, session);

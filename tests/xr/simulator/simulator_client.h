@@ -29,6 +29,8 @@ inline const std::vector<const char*> all_extensions = {XR_KHR_VULKAN_ENABLE2_EX
                                                         XR_EXT_DEBUG_UTILS_EXTENSION_NAME,
                                                         XR_KHR_COMPOSITION_LAYER_CYLINDER_EXTENSION_NAME,
                                                         XR_KHR_COMPOSITION_LAYER_EQUIRECT2_EXTENSION_NAME};
+/// Those of all_extensions that the runtime offers: it depends on the headset.
+std::vector<const char*> offered_extensions();
 /// For sessions without graphics.
 inline const std::vector<const char*> headless_extensions = {
     XR_MND_HEADLESS_EXTENSION_NAME, XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME,
@@ -40,7 +42,8 @@ class SimulatorClient {
   public:
     static constexpr XrSystemId system = 1;
 
-    explicit SimulatorClient(const std::vector<const char*>& extensions = all_extensions);
+    explicit SimulatorClient(const std::vector<const char*>& extensions = offered_extensions(),
+                             XrVersion version = XR_MAKE_VERSION(1, 0, 0));
     ~SimulatorClient();
     SimulatorClient(const SimulatorClient&) = delete;
     SimulatorClient& operator=(const SimulatorClient&) = delete;
