@@ -53,12 +53,14 @@ FrameLoop::FrameLoop(const FrameLoopSetup& setup)
       compositor_(setup.device, textures_),
       submitted_(setup.frames_in_flight) {}
 
-FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec2> pointer) {
-    Frame frame = headset_.begin_frame();
+std::optional<FrameLoop::Step> FrameLoop::step(const SettingsOf& settings_of, std::optional<vec2> pointer) {
+    std::optional<Frame> begun = headset_.begin_frame();
+    if (!begun) return std::nullopt;
+    Frame frame = std::move(*begun);
     if (!frame.should_render) {
         wait();  // holds nobody up, and frees what was replaced
         headset_.end_frame(frame);
-        return {std::move(frame), false, {}};
+        return Step{std::move(frame), false, {}};
     }
     if (pointer && !frame.has_eye_tracking) point_gaze(frame, *pointer);
     if (!acuity_) acuity_ = acuity_for(frame.views);
@@ -93,8 +95,8 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
                                       counters_.address(), shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    light = history_.record(
-        cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
+    light =
+        history_.record(cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.time, settings});
     const auto images = resolve_.images(cmd, frame.views, live_.scene().changes_what_is_behind);
     const auto background = passthrough::choose_background(camera_ != nullptr, frame.blend, settings);
     for (std::size_t view = 0; view < frame.views.size(); ++view) {
@@ -110,7 +112,7 @@ FrameLoop::Step FrameLoop::step(const SettingsOf& settings_of, std::optional<vec
                                  std::chrono::duration<double, std::milli>(end - start).count()};
     ring_.submit();
     headset_.end_frame(frame);
-    return {std::move(frame), true, images};
+    return Step{std::move(frame), true, images};
 }
 
 void FrameLoop::show(render::LiveScene::Next next) {

@@ -55,9 +55,9 @@ class FrameLoop {
     using SettingsOf = std::function<Settings(const Frame&)>;
     /// One frame, from the runtime's wait to its end. A frame that is rendered gets its settings once it is
     /// known. `pointer` (0..1 over the left eye's context view, from the top left) stands in for the gaze
-    /// where the headset has no eye tracking. Throws Fault.
-    Step step(const SettingsOf& settings_of, std::optional<vec2> pointer = {});
-    Step step(const Settings& settings) {
+    /// where the headset has no eye tracking. Empty: the runtime lost the session before. Throws Fault.
+    std::optional<Step> step(const SettingsOf& settings_of, std::optional<vec2> pointer = {});
+    std::optional<Step> step(const Settings& settings) {
         return step([&](const Frame&) { return settings; });
     }
 

@@ -100,20 +100,21 @@ ExitCode run_replay(const ReplayOptions& options) {
     std::uint64_t done = 0;
     while (done < range.end && !interrupted()) {
         const auto state = headset.poll();
-        if (state == xr::Headset::State::Ended) break;
+        if (state == xr::Headset::State::Ended || state == xr::Headset::State::Lost) break;
         if (state == xr::Headset::State::Waiting) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             continue;
         }
-        const FrameLoop::Step step = loop.step(
+        const auto step = loop.step(
             [&](const Frame& frame) { return replay_settings(options.settings, session, frame.time); });
         loop.wait();
-        done = step.frame.index + 1;
-        if (step.rendered && step.frame.index >= range.first) {
+        if (!step) continue;
+        done = step->frame.index + 1;
+        if (step->rendered && step->frame.index >= range.first) {
             frames.push_back(*loop.metrics());
             video.add(frames.back());
-            for (std::size_t i = view_sizes.size(); i < step.frame.views.size(); ++i) {
-                view_sizes.push_back(step.frame.views[i].size);
+            for (std::size_t i = view_sizes.size(); i < step->frame.views.size(); ++i) {
+                view_sizes.push_back(step->frame.views[i].size);
             }
         }
         progress.update(done);

@@ -26,6 +26,10 @@ void SessionRecorder::add(const Frame& frame) {
     // drawn.
     session_.frames = static_cast<std::uint64_t>((frame.time + frame.period / 2) / frame.period) + 1;
     session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
+    if (std::exchange(head_valid_, frame.head_valid) != frame.head_valid) {
+        session_.events.push_back(
+            {frame.time, frame.head_valid ? "head_tracking_gained" : "head_tracking_lost", ""});
+    }
     if (frame.head_valid) session_.head.push_back({frame.time, frame.stage_from_head});
     if (frame.has_eye_tracking) {
         const Pose head_from_stage = inverse(frame.stage_from_head);

@@ -16,9 +16,13 @@ class SessionRecorder {
     /// be empty until `set_headset`. Throws Fault(BadInput) when the folder cannot be made.
     SessionRecorder(const std::filesystem::path& folder, Session header);
 
+    /// Throws Fault(BadInput) when no recording could be written there. Leaves nothing.
+    static void require_place(const std::filesystem::path& folder) { StagedFolder(folder, ""); }
+
     bool knows_headset() const { return !session_.headset.empty(); }
     /// A headset that has no profile of its own: it goes into the folder.
     void set_headset(const HeadsetProfile& profile);
+    /// Where the head is not tracked it has no sample, and an event says so.
     void add(const Frame& frame);
     /// What a frame was traced with. Kept where it differs from the frame before.
     void add(const Session::QualitySample& quality);
@@ -30,6 +34,7 @@ class SessionRecorder {
   private:
     StagedFolder folder_;
     Session session_;
+    bool head_valid_ = true;  // of the last frame
 };
 
 }  // namespace foveray::app

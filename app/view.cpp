@@ -1,5 +1,6 @@
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "app/commands.h"
 #include "app/frame_loop.h"
@@ -60,11 +61,7 @@ ExitCode run_view(const ViewOptions& options) {
     simulator.gpu = options.gpu;
     xr::Headset headset(options.runtime, simulator);
     const auto profile = profile_of(options, headset, simulator.profile);
-    std::optional<SessionRecorder> recorder;
-    if (options.record) {
-        recorder.emplace(*options.record,
-                         recording_header(options, inputs, headset.is_simulator() ? simulator.profile : ""));
-    }
+    if (options.record) SessionRecorder::require_place(*options.record);
 
     std::optional<DesktopWindow> window;
     if (options.mirror) window.emplace("foveray");
@@ -88,8 +85,13 @@ ExitCode run_view(const ViewOptions& options) {
     if (window) mirror.emplace(device, *window);
     log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
 
-    catch_interrupts();
-    bool exit_requested = false;
+    catch_interrupts();  // from here on there is a recording to finish
+    std::optional<SessionRecorder> recorder;
+    if (options.record) {
+        recorder.emplace(*options.record,
+                         recording_header(options, inputs, headset.is_simulator() ? simulator.profile : ""));
+    }
+    bool exit_requested = false, scene_changed = false;
     QualityControl quality;
     const auto show_frames = [&] {
         for (auto state = headset.poll(); state != xr::Headset::State::Ended; state = headset.poll()) {
@@ -98,25 +100,31 @@ ExitCode run_view(const ViewOptions& options) {
                 exit_requested = true;
                 continue;
             }
+            if (state == xr::Headset::State::Lost) {
+                loop.wait();
+                headset.reconnect();
+                continue;
+            }
             if (state == xr::Headset::State::Waiting) {
                 if (mirror) mirror->show({}, {}, false, settings);
                 std::this_thread::sleep_for(std::chrono::milliseconds(10));
                 continue;
             }
-            const bool scene_changed = reload.show();
+            scene_changed = reload.show() || scene_changed;
             std::optional<Session::QualitySample> traced_with;
             const auto settings_of = [&](const Frame& frame) {
                 const Settings used = quality.choose(settings, frame, loop.metrics());
                 traced_with = quality_sample(used, frame.time);
                 return used;
             };
-            const FrameLoop::Step step = loop.step(settings_of, mirror ? mirror->pointer() : std::nullopt);
-            if (mirror && step.rendered) {
-                mirror->show(mirror_pictures(step), loop.metrics().value_or(FrameMetrics{}),
+            const auto step = loop.step(settings_of, mirror ? mirror->pointer() : std::nullopt);
+            if (!step) continue;
+            if (mirror && step->rendered) {
+                mirror->show(mirror_pictures(*step), loop.metrics().value_or(FrameMetrics{}),
                              headset.instance().has_eye_tracking(), settings);
             }
-            if (recorder) record(*recorder, headset, step.frame, profile);
-            if (recorder && scene_changed) recorder->add_scene_change(step.frame);
+            if (recorder) record(*recorder, headset, step->frame, profile);
+            if (recorder && std::exchange(scene_changed, false)) recorder->add_scene_change(step->frame);
             if (recorder && traced_with) recorder->add(*traced_with);
         }
     };

@@ -21,7 +21,7 @@ float span(Nanoseconds dt, Nanoseconds whole) {
 }  // namespace
 
 Fovea Foveation::update(const Frame& frame, const Settings& settings) {
-    const Nanoseconds now = frame.display_time;
+    const Nanoseconds now = frame.time;
     const Nanoseconds dt = started_ ? std::max<Nanoseconds>(now - last_time_, 0) : 0;
     const bool tracked = frame.has_eye_tracking && settings.gaze_tracking;
     const bool valid = tracked && frame.gaze.valid;

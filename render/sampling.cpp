@@ -180,7 +180,7 @@ vk::DeviceAddress SamplingStage::upload_grids(const gpu::Commands& cmd, Slot& sl
 void SamplingStage::record_fixation(const gpu::Commands& cmd, Slot& slot, const SamplingInput& input,
                                     const SampleGrid& grid) {
     using gpu::Access;
-    const Nanoseconds now = input.frame.display_time;
+    const Nanoseconds now = input.frame.time;
     const double steps =
         started_ ? to_seconds(std::max<Nanoseconds>(now - last_time_, 0)) / to_seconds(smoothing_time)
                  : std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ Pose pose_of(const mat4& matrix) {
 Frame frame_of(const Shot& shot, std::uint64_t index) {
     Frame frame;
     frame.index = index;
-    frame.time = frame.display_time = shot.time;
+    frame.time = shot.time;
     frame.should_render = true;
     frame.views = shot.views;
     return frame;
@@ -90,8 +90,8 @@ std::optional<ShotCost> Offscreen::draw(const Shot& shot) {
                                       shadows_.noise(), probes.field, settings},
                                      sub_sample);
     }
-    light = history_.record(
-        cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.display_time, settings});
+    light =
+        history_.record(cmd, {grid, hits, light, live_.scene().changes_what_is_behind, frame.time, settings});
     images_ = resolve_.images(cmd, frame.views, live_.scene().changes_what_is_behind);
     for (std::size_t view = 0; view < frame.views.size(); ++view) {
         resolve_.record(cmd, light, grid, images_, view, settings);

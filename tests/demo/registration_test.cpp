@@ -121,7 +121,7 @@ class RegistrationTest : public testing::Test {
         FrameLoop loop({device, headset, scene, nullptr, std::nullopt, read_headset_profile(profile).acuity,
                         every_pixel});
         EXPECT_EQ(headset.poll(), xr::Headset::State::Running);
-        const FrameLoop::Step step = loop.step(settings);
+        const FrameLoop::Step step = loop.step(settings).value();
         EXPECT_TRUE(step.rendered);
         loop.wait();
         EXPECT_TRUE(device.validation_messages().empty());

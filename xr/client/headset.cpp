@@ -1,7 +1,8 @@
 #include "xr/client/headset.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cassert>
+#include <thread>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -9,49 +10,51 @@
 namespace foveray::xr {
 namespace {
 
-XrEnvironmentBlendMode to_xr_blend_mode(BlendMode mode) {
-    switch (mode) {
-        case BlendMode::Additive:
-            return XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
-        case BlendMode::AlphaBlend:
-            return XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-        case BlendMode::Opaque:
-            break;
-    }
-    return XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
-}
+constexpr std::chrono::milliseconds retry_interval{200}, exit_patience{1000};
 
-SpaceHandle make_reference_space(XrSession session, XrReferenceSpaceType type, const Pose& pose) {
-    const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, type, to_xr(pose)};
-    SpaceHandle space;
-    check(xrCreateReferenceSpace(session, &info, space.put()), "xrCreateReferenceSpace");
-    return space;
+[[noreturn]] void throw_away(const Instance& instance) {
+    throw_missing("OpenXR runtime " + instance.runtime_name(),
+                  "its headset is away (XR_ERROR_FORM_FACTOR_UNAVAILABLE)",
+                  "connect the headset and switch it on, or use --runtime simulator");
 }
-
-constexpr float standing_eye_height = 1.6f;  // metres, where the runtime knows no floor
 
 }  // namespace
 
-Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator) {
-    if (choice != RuntimeChoice::Simulator) {
+Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator, std::chrono::milliseconds patience)
+    : patience_(patience) {
+    if (choice == RuntimeChoice::System) {
+        instance_ = std::make_unique<Instance>();
+        wait_for_headset();
+        return;
+    }
+    if (choice == RuntimeChoice::Auto) {
         try {
-            if (choice == RuntimeChoice::Auto && system_runtime_manifest().empty()) {
-                throw_missing("OpenXR", "no active runtime", "");
-            }
+            if (system_runtime_manifest().empty()) throw_missing("OpenXR", "no active runtime", "");
             instance_ = std::make_unique<Instance>();
+            if (!instance_->find_headset()) throw_away(*instance_);
             return;
         } catch (const Fault& fault) {
-            if (choice == RuntimeChoice::System) throw;
             log::info("{}; using the simulated headset '{}'", fault.what(), simulator.profile);
         }
     }
+    instance_.reset();  // first: the loader has one at a time
     use_simulator(simulator);
     simulator_gpu_ = simulator.gpu;
     instance_ = std::make_unique<Instance>();
     is_simulator_ = true;
+    wait_for_headset();
 }
 
 Headset::~Headset() { stop(); }
+
+void Headset::wait_for_headset() {
+    const auto give_up = Clock::now() + patience_;
+    for (bool told = false; !instance_->find_headset(); told = true) {
+        if (Clock::now() >= give_up) throw_away(*instance_);
+        if (!told) log::info("{}: its headset is away; waiting for it", instance_->runtime_name());
+        std::this_thread::sleep_for(retry_interval);
+    }
+}
 
 gpu::DeviceSource Headset::device_source() const {
     gpu::DeviceSource source = instance_->device_source();
@@ -68,334 +71,131 @@ gpu::DeviceSource Headset::device_source() const {
     return source;
 }
 
+template <typename Call>
+void Headset::unless_lost(Call&& call) {
+    if (loss_) return;
+    try {
+        call();
+    } catch (const Lost& loss) {
+        loss_ = loss;
+    }
+}
+
 void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, float far_z) {
     device_ = &device;
-    near_z_ = near_z;
-    far_z_ = far_z;
-    const auto& modes = instance_->blend_modes();
-    blend_ = std::find(modes.begin(), modes.end(), blend) != modes.end() ? blend : modes.front();
-
-    XrGraphicsBindingVulkan2KHR binding{XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR};
-    binding.instance = *device.instance();
-    binding.physicalDevice = *device.physical();
-    binding.device = *device.vk();
-    binding.queueFamilyIndex = device.queue_family();
-    binding.queueIndex = 0;
-    const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &binding, 0, instance_->system()};
-    check(xrCreateSession(instance_->get(), &info, session_.put()), "xrCreateSession");
-    make_spaces();
-    make_swapchains();
-    input_ = Input(*instance_, session_.get());
-    if (instance_->has(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME)) {
-        hidden_meshes_.assign(sizes_.size(), {});
-        for (std::uint32_t view = 0; view < sizes_.size(); ++view) read_hidden_mesh(view);
-    }
+    presentation_ = {blend, near_z, far_z};
+    system_name_ = instance_->system_name();
+    view_configuration_ = instance_->view_configuration();
+    unless_lost([&] { session_ = std::make_unique<RuntimeSession>(*instance_, device, presentation_); });
 }
 
-void Headset::abandon_frame() {
-    if (!open_frame_) return;
-    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
-    info.displayTime = *open_frame_;
-    info.environmentBlendMode = to_xr_blend_mode(blend_);
-    const auto lock = device_->lock_queue();
-    xrEndFrame(session_.get(), &info);  // if even that fails, the session ends all the same
-    open_frame_.reset();
-}
-
-void Headset::stop() {
-    abandon_frame();
-    input_ = Input();
-    color_.clear();
-    depth_.clear();
-    stage_.reset();
-    head_.reset();
-    rendering_gaze_.reset();
-    session_.reset();
-    begun_ = false;
-}
-
-void Headset::make_spaces() {
-    std::uint32_t count = 0;
-    check(xrEnumerateReferenceSpaces(session_.get(), 0, &count, nullptr), "xrEnumerateReferenceSpaces");
-    std::vector<XrReferenceSpaceType> types(count);
-    check(xrEnumerateReferenceSpaces(session_.get(), count, &count, types.data()),
-          "xrEnumerateReferenceSpaces");
-    const auto offers = [&](auto type) { return std::find(types.begin(), types.end(), type) != types.end(); };
-    if (offers(XR_REFERENCE_SPACE_TYPE_STAGE)) {
-        stage_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_STAGE, Pose{});
-    } else {
-        log::info("{} knows no floor: taken to be {} m below the head", instance_->runtime_name(),
-                  standing_eye_height);
-        stage_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_LOCAL,
-                                      {quat(1, 0, 0, 0), vec3(0, -standing_eye_height, 0)});
-    }
-    head_ = make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_VIEW, Pose{});
-    if (instance_->can_foveate() && offers(XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO)) {
-        rendering_gaze_ =
-            make_reference_space(session_.get(), XR_REFERENCE_SPACE_TYPE_COMBINED_EYE_VARJO, Pose{});
-    }
-}
-
-void Headset::make_swapchains() {
-    sizes_ = instance_->view_sizes(false);
-    foveated_sizes_ = instance_->can_foveate() ? instance_->view_sizes(true) : sizes_;
-    const bool with_depth = instance_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
-                            Swapchain::offers(session_.get(), Swapchain::Kind::Depth);
-    for (std::size_t i = 0; i < sizes_.size(); ++i) {
-        const uvec2 size = glm::max(sizes_[i], foveated_sizes_[i]);
-        const std::string name = "view " + std::to_string(i);
-        color_.emplace_back(session_.get(), Swapchain::Kind::Color, size, name.c_str());
-        if (with_depth) depth_.emplace_back(session_.get(), Swapchain::Kind::Depth, size, name.c_str());
-    }
-}
-
-void Headset::read_hidden_mesh(std::uint32_t view) {
-    const auto get_mask = instance_->function<PFN_xrGetVisibilityMaskKHR>("xrGetVisibilityMaskKHR");
-    XrVisibilityMaskKHR mask{XR_TYPE_VISIBILITY_MASK_KHR};
-    const auto read = [&] {
-        check(get_mask(session_.get(), instance_->view_configuration(), view,
-                       XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR, &mask),
-              "xrGetVisibilityMaskKHR");
-    };
-    read();
-    HiddenMesh mesh;
-    mesh.version = ++hidden_mesh_version_;
-    if (mask.vertexCountOutput > 0 && mask.indexCountOutput > 0) {
-        std::vector<XrVector2f> vertices(mask.vertexCountOutput);
-        mesh.indices.resize(mask.indexCountOutput);
-        mask.vertexCapacityInput = mask.vertexCountOutput;
-        mask.indexCapacityInput = mask.indexCountOutput;
-        mask.vertices = vertices.data();
-        mask.indices = mesh.indices.data();
-        read();
-        for (const XrVector2f& v : vertices) mesh.vertices.emplace_back(v.x, v.y);
-    }
-    hidden_meshes_[view] = std::move(mesh);
-}
+void Headset::stop() { session_.reset(); }
 
 Headset::State Headset::poll() {
-    while (state_ != State::Ended) {
-        XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
-        if (check(xrPollEvent(instance_->get(), &event), "xrPollEvent") == XR_EVENT_UNAVAILABLE) break;
-        switch (event.type) {
-            case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED:
-                on_state(reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state);
-                break;
-            case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
-                log::warn("the OpenXR runtime {} is shutting down", instance_->runtime_name());
-                state_ = State::Ended;
-                break;
-            case XR_TYPE_EVENT_DATA_VISIBILITY_MASK_CHANGED_KHR: {
-                const auto& change = reinterpret_cast<const XrEventDataVisibilityMaskChangedKHR&>(event);
-                if (change.viewConfigurationType == instance_->view_configuration() &&
-                    change.viewIndex < hidden_meshes_.size()) {
-                    read_hidden_mesh(change.viewIndex);
-                }
-                break;
-            }
-            default:
-                break;
-        }
-    }
-    return state_;
+    if (leave_by_ && Clock::now() >= *leave_by_) return State::Ended;
+    unless_lost([&] {
+        if (!session_) connect();
+        if (session_) session_->poll();
+    });
+    if (loss_) return leave_by_ ? State::Ended : State::Lost;
+    if (!session_) return State::Waiting;
+    if (session_->has_ended()) return State::Ended;
+    return session_->is_running() ? State::Running : State::Waiting;
 }
 
-void Headset::on_state(XrSessionState state) {
-    switch (state) {
-        case XR_SESSION_STATE_READY: {
-            const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr,
-                                          instance_->view_configuration()};
-            check(xrBeginSession(session_.get(), &info), "xrBeginSession");
-            begun_ = true;
-            state_ = State::Running;
-            break;
+void Headset::reconnect() {
+    assert(loss_);
+    if (!away_since_) away_since_ = Clock::now();
+    if (Clock::now() - *away_since_ > patience_) throw Lost(*loss_);
+    log::warn("the OpenXR runtime {} {}; connecting again", instance_->runtime_name(), loss_->event());
+    session_.reset();
+    instance_is_lost_ = loss_->with_instance();
+    loss_.reset();
+}
+
+/// One attempt now and then.
+void Headset::connect() {
+    if (Clock::now() < next_attempt_) return;
+    next_attempt_ = Clock::now() + retry_interval;
+    try {
+        if (instance_is_lost_) {
+            clock_start_.reset();
+            instance_->reconnect();
+            instance_is_lost_ = false;
         }
-        case XR_SESSION_STATE_STOPPING:
-            check(xrEndSession(session_.get()), "xrEndSession");
-            begun_ = false;
-            state_ = State::Waiting;
-            break;
-        case XR_SESSION_STATE_LOSS_PENDING:
-            log::warn("the OpenXR runtime {} is losing the headset: the session ends",
-                      instance_->runtime_name());
-            state_ = State::Ended;
-            break;
-        case XR_SESSION_STATE_EXITING:
-            state_ = State::Ended;
-            break;
-        default:
-            break;
+        if (!instance_->find_headset()) throw_away(*instance_);
+        require_same_headset();
+        session_ = std::make_unique<RuntimeSession>(*instance_, *device_, presentation_);
+        log::info("connected to {} again", system_name_);
+    } catch (const Fault& fault) {
+        if (Clock::now() - *away_since_ > patience_) throw;
+        const auto* lost = dynamic_cast<const Lost*>(&fault);
+        instance_is_lost_ = instance_is_lost_ || (lost && lost->with_instance());
+        if (fault.what() != last_refusal_) log::info("{}; trying again", fault.what());
+        last_refusal_ = fault.what();
+    }
+}
+
+void Headset::require_same_headset() const {
+    const std::string runtime = "OpenXR runtime " + instance_->runtime_name();
+    if (instance_->system_name() != system_name_ || instance_->view_configuration() != view_configuration_) {
+        throw_missing(runtime, "it came back with another headset, " + instance_->system_name(),
+                      "start foveray again");
+    }
+    const vk::PhysicalDevice wanted = instance_->device_source().choose_physical_device(*device_->instance());
+    if (wanted != *device_->physical()) {
+        throw_missing(runtime, "it came back wanting another GPU than " + device_->name(),
+                      "start foveray again");
     }
 }
 
 void Headset::request_exit() {
-    if (!begun_) {
-        state_ = State::Ended;
-        return;
-    }
-    check(xrRequestExitSession(session_.get()), "xrRequestExitSession");
+    leave_by_ = Clock::now();
+    unless_lost([&] {
+        if (!session_ || !session_->is_running()) return;
+        session_->request_exit();
+        *leave_by_ += exit_patience;
+    });
 }
 
-bool Headset::rendering_gaze_is_available(XrTime time) const {
-    if (!rendering_gaze_) return false;
-    XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
-    check(xrLocateSpace(rendering_gaze_.get(), head_.get(), time, &location), "xrLocateSpace");
-    return (location.locationFlags & XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT) != 0;
-}
-
-Frame Headset::begin_frame() {
-    const XrFrameWaitInfo wait_info{XR_TYPE_FRAME_WAIT_INFO};
-    XrFrameState frame_state{XR_TYPE_FRAME_STATE};
-    check(xrWaitFrame(session_.get(), &wait_info, &frame_state), "xrWaitFrame");
-    const XrFrameBeginInfo begin_info{XR_TYPE_FRAME_BEGIN_INFO};
-    auto lock = device_->lock_queue();
-    const XrResult begun = check(xrBeginFrame(session_.get(), &begin_info), "xrBeginFrame");
-    lock.unlock();
-    if (begun == XR_FRAME_DISCARDED) {
-        release_images();  // of the frame that was begun before and never ended
-    }
-    open_frame_ = frame_state.predictedDisplayTime;
-    submission_recorded_ = false;
-
-    if (frame_index_ == 0) first_display_time_ = frame_state.predictedDisplayTime;
-    Frame frame;
+std::optional<Frame> Headset::begin_frame() {
+    std::optional<Frame> begun;
+    unless_lost([&] { begun = session_->begin_frame(); });
+    if (!begun) return begun;
+    Frame& frame = *begun;
     frame.index = frame_index_++;
-    frame.display_time = frame_state.predictedDisplayTime;
-    frame.time = frame.display_time - first_display_time_;
-    frame.period = frame_state.predictedDisplayPeriod;
-    frame.should_render = frame_state.shouldRender == XR_TRUE;
-    frame.has_eye_tracking = instance_->has_eye_tracking();
-    frame.blend = blend_;
-
-    LocatedViews located_views =
-        locate_views(frame.display_time, rendering_gaze_is_available(frame.display_time));
-    frame.views = std::move(located_views.views);
-    frame.head_valid = located_views.valid;
-    XrSpaceLocation head{XR_TYPE_SPACE_LOCATION};
-    check(xrLocateSpace(head_.get(), stage_.get(), frame.display_time, &head), "xrLocateSpace");
-    const XrSpaceLocationFlags located =
-        XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
-    frame.head_valid =
-        frame.head_valid && (head.locationFlags & located) == located && is_usable(to_pose(head.pose));
+    if (!clock_start_) clock_start_ = frame.display_time - next_time_;
+    frame.time = frame.display_time - *clock_start_;
+    next_time_ = frame.time + frame.period;
     // Without a pose there is nothing to show the scene from: hold the last one, or skip the frame.
     if (frame.head_valid) {
         last_views_ = frame.views;
-        last_head_ = to_pose(head.pose);
+        last_head_ = frame.stage_from_head;
     } else if (last_views_.size() == frame.views.size()) {
         frame.views = last_views_;
     } else {
         frame.should_render = false;
     }
-
     frame.stage_from_head = last_head_;
-    input_.update(session_.get(), stage_.get(), frame);
-    return frame;
-}
-
-Headset::LocatedViews Headset::locate_views(XrTime time, bool foveated) const {
-    const XrViewLocateFoveatedRenderingVARJO foveation{XR_TYPE_VIEW_LOCATE_FOVEATED_RENDERING_VARJO, nullptr,
-                                                       foveated};
-    XrViewLocateInfo locate{XR_TYPE_VIEW_LOCATE_INFO};
-    locate.next = rendering_gaze_ ? &foveation : nullptr;
-    locate.viewConfigurationType = instance_->view_configuration();
-    locate.displayTime = time;
-    locate.space = stage_.get();
-    XrViewState view_state{XR_TYPE_VIEW_STATE};
-    std::uint32_t count = static_cast<std::uint32_t>(sizes_.size());
-    std::vector<XrView> views(count, {XR_TYPE_VIEW});
-    check(xrLocateViews(session_.get(), &locate, &view_state, count, &count, views.data()), "xrLocateViews");
-    const XrViewStateFlags needed = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
-    LocatedViews located;
-    located.valid = (view_state.viewStateFlags & needed) == needed;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        View view;
-        view.eye = i % 2 == 0 ? Eye::Left : Eye::Right;
-        view.role = i < 2 ? ViewRole::Context : ViewRole::Focus;
-        view.stage_from_eye = to_pose(views[i].pose);
-        view.fov = to_fov(views[i].fov);
-        view.size = foveated ? foveated_sizes_[i] : sizes_[i];
-        located.valid = located.valid && is_usable(view.stage_from_eye);
-        located.views.push_back(view);
-    }
-    return located;
-}
-
-HeadsetProfile Headset::profile(const Frame& frame) const {
-    HeadsetProfile profile;
-    profile.name = profile.display_name = instance_->system_name();
-    profile.source = "What " + instance_->runtime_name() + " told foveray while a session was recorded.";
-    profile.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
-    profile.eye_tracking = instance_->has_eye_tracking();
-    // The views as they are when they do not follow the gaze.
-    const std::vector<View> views = locate_views(frame.display_time, false).views;
-    profile.ipd = glm::distance(views[0].stage_from_eye.position, views[1].stage_from_eye.position);
-    for (const View& view : views)
-        profile.views.push_back(
-            {view.eye, view.role, view.size, view.fov, centre_ppd(view.fov, view.size.x)});
-    profile.blend_modes = instance_->blend_modes();
-    // Its controllers have every input that a session keeps; which ones were held is not recorded.
-    profile.interaction_profile = "/interaction_profiles/oculus/touch_controller";
-    if (views.size() > 2) {
-        profile.foveated_focus_scale =
-            std::min(1.0f, static_cast<float>(foveated_sizes_[2].x) / static_cast<float>(sizes_[2].x));
-    }
-    return profile;
-}
-
-void Headset::release_images() {
-    for (Swapchain& swapchain : color_) swapchain.release(*device_);
-    for (Swapchain& swapchain : depth_) swapchain.release(*device_);
+    return begun;
 }
 
 void Headset::record_submission(const gpu::Commands& cmd, const Frame& frame,
                                 const std::vector<ViewPicture>& pictures) {
-    cmd.barrier(gpu::Access::ComputeWrite, gpu::Access::TransferRead);
-    for (std::size_t i = 0; i < frame.views.size(); ++i) {
-        color_[i].record_copy(cmd, pictures[i].color, pictures[i].color_offset, frame.views[i].size);
-        if (!depth_.empty()) {
-            depth_[i].record_copy(cmd, pictures[i].depth, pictures[i].depth_offset, frame.views[i].size);
-        }
-    }
-    submission_recorded_ = true;
+    unless_lost([&] {
+        const bool recorded = session_->record_submission(cmd, frame, pictures);
+        if (!recorded && !image_is_late_)
+            log::warn("{} has no image free: frames are left out", instance_->runtime_name());
+        image_is_late_ = !recorded;
+    });
 }
 
 void Headset::end_frame(const Frame& frame) {
-    std::vector<XrCompositionLayerProjectionView> views(frame.views.size(),
-                                                        {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW});
-    std::vector<XrCompositionLayerDepthInfoKHR> depths(frame.views.size(),
-                                                       {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR});
-    XrCompositionLayerProjection layer{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
-    const XrCompositionLayerBaseHeader* layers[] = {reinterpret_cast<XrCompositionLayerBaseHeader*>(&layer)};
-    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
-    info.displayTime = frame.display_time;
-    info.environmentBlendMode = to_xr_blend_mode(blend_);
-    if (submission_recorded_) {
-        release_images();
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            const View& view = frame.views[i];
-            const XrRect2Di rect{{0, 0}, {static_cast<int>(view.size.x), static_cast<int>(view.size.y)}};
-            views[i].pose = to_xr(view.stage_from_eye);
-            views[i].fov = to_xr(view.fov);
-            views[i].subImage = {color_[i].get(), rect, 0};
-            if (depth_.empty()) continue;
-            depths[i].subImage = {depth_[i].get(), rect, 0};
-            depths[i].minDepth = 0.0f;
-            depths[i].maxDepth = 1.0f;
-            depths[i].nearZ = near_z_;
-            depths[i].farZ = far_z_;
-            views[i].next = &depths[i];
-        }
-        layer.layerFlags =
-            blend_ == BlendMode::AlphaBlend ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
-        layer.space = stage_.get();
-        layer.viewCount = static_cast<std::uint32_t>(views.size());
-        layer.views = views.data();
-        info.layerCount = 1;
-        info.layers = layers;
-    }
-    open_frame_.reset();
-    const auto lock = device_->lock_queue();
-    check(xrEndFrame(session_.get(), &info), "xrEndFrame");
+    unless_lost([&] {
+        session_->end_frame(frame);
+        away_since_.reset();
+        last_refusal_.clear();
+    });
 }
 
 }  // namespace foveray::xr

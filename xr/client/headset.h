@@ -1,49 +1,46 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/frame.h"
-#include "base/headset_profile.h"
-#include "render/gpu/commands.h"
-#include "xr/client/input.h"
-#include "xr/client/instance.h"
 #include "xr/client/runtime_choice.h"
-#include "xr/client/swapchain.h"
+#include "xr/client/runtime_session.h"
 
 namespace foveray::xr {
 
-/// Finished pictures of one view, tightly packed, written by compute shaders.
-struct ViewPicture {
-    vk::Buffer color;  // sRGB-encoded premultiplied RGBA8
-    vk::DeviceSize color_offset = 0;
-    vk::Buffer depth;  // float, 0 near … 1 far
-    vk::DeviceSize depth_offset = 0;
-};
-
-/// The headset through OpenXR: one instance, one session, from first event to exit.
+/// The headset through OpenXR, from first event to exit, over as many sessions and instances as the runtime
+/// makes of it.
 ///
 ///     Headset headset(RuntimeChoice::Auto, simulator_options);
 ///     gpu::Device device(options, headset.device_source());
-///     headset.start(device);
-///     while (headset.poll() != Headset::State::Ended) {
-///         Frame frame = headset.begin_frame();   // only in State::Running
-///         …record…, headset.record_submission(cmd, frame, pictures), submit
-///         headset.end_frame(frame);
+///     headset.start(device, blend, near_z, far_z);
+///     for (auto state = headset.poll(); state != Headset::State::Ended; state = headset.poll()) {
+///         if (state == Headset::State::Waiting) …sleep a little, continue…
+///         if (state == Headset::State::Lost) …wait for the GPU, headset.reconnect(), continue…
+///         if (auto frame = headset.begin_frame()) {
+///             …record…, headset.record_submission(cmd, *frame, pictures), submit
+///             headset.end_frame(*frame);
+///         }
 ///     }
 class Headset {
   public:
     enum class State {
-        Waiting,  // the runtime does not want frames yet: poll again in a while
-        Running,
+        Waiting,  // nothing to do yet: poll again in a while
+        Running,  // the runtime wants frames
+        Lost,     // the runtime lost the session: reconnect() once the GPU is done with its images
         Ended,
     };
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds usual_patience{10};
 
     /// Auto takes the system's runtime if one answers and has a headset; else it says why and takes the
-    /// simulator.
-    Headset(RuntimeChoice choice, const SimulatorOptions& simulator);
+    /// simulator. `patience`: how long a headset is waited for that is away at the start (but not by Auto),
+    /// or was lost.
+    Headset(RuntimeChoice choice, const SimulatorOptions& simulator,
+            std::chrono::milliseconds patience = usual_patience);
     ~Headset();
 
     const Instance& instance() const { return *instance_; }
@@ -57,60 +54,58 @@ class Headset {
     /// done with the runtime's images. Does nothing a second time.
     void stop();
 
+    /// Throws Fault(Missing) when the runtime fails, or a lost headset does not come back.
     State poll();
-    /// Asks the runtime to end the session; poll() gets there.
+    /// In State::Lost. The same headset is looked for by later poll()s: State::Waiting, until it shows frames
+    /// again. The device stays; session time goes on where a new instance begins.
+    void reconnect();
+    /// Asks the runtime to end the session; poll() gets there, within a second whatever the runtime does.
     void request_exit();
 
-    /// Blocks until the runtime wants the next frame.
-    Frame begin_frame();
+    /// Blocks until the runtime wants the next frame. Empty: it lost the session instead.
+    std::optional<Frame> begin_frame();
     /// Records the copies into the runtime's images; call once between begin_frame and submitting the
     /// commands.
     void record_submission(const gpu::Commands& cmd, const Frame& frame,
                            const std::vector<ViewPicture>& pictures);
     /// Always called after begin_frame, unless an exception ends the session; shows nothing when nothing was
-    /// recorded.
+    /// recorded, or the runtime had no image free.
     void end_frame(const Frame& frame);
 
     /// Per view of Frame::views; the vector stays empty where the runtime has no mask.
-    const std::vector<HiddenMesh>& hidden_meshes() const { return hidden_meshes_; }
-    /// The headset as the runtime tells it at `frame`, after begin_frame: for sessions recorded with it.
+    const std::vector<HiddenMesh>& hidden_meshes() const { return session_->hidden_meshes(); }
+    /// The headset as the runtime tells it at `frame`, the last one begun: for sessions recorded with it.
     /// Acuity is not the runtime's to tell.
-    HeadsetProfile profile(const Frame& frame) const;
+    HeadsetProfile profile(const Frame& frame) const { return session_->profile(frame); }
 
   private:
-    void on_state(XrSessionState state);
-    void make_spaces();
-    void make_swapchains();
-    void read_hidden_mesh(std::uint32_t view);
-    struct LocatedViews {
-        std::vector<View> views;
-        bool valid = false;
-    };
-    LocatedViews locate_views(XrTime time, bool foveated) const;
-    void abandon_frame();
-    void release_images();
-    bool rendering_gaze_is_available(XrTime time) const;
+    void wait_for_headset();
+    void connect();
+    void require_same_headset() const;
+    template <typename Call>
+    void unless_lost(Call&& call);
 
+    std::chrono::milliseconds patience_;
     std::unique_ptr<Instance> instance_;
     bool is_simulator_ = false;
     std::optional<std::uint32_t> simulator_gpu_;
-    const gpu::Device* device_ = nullptr;  // while there is a session
-    SessionHandle session_;
-    State state_ = State::Waiting;
-    bool begun_ = false;
-    BlendMode blend_ = BlendMode::Opaque;
-    float near_z_ = 0.05f, far_z_ = 100.0f;
+    const gpu::Device* device_ = nullptr;  // once started
+    Presentation presentation_;
+    std::string system_name_;
+    XrViewConfigurationType view_configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    std::unique_ptr<RuntimeSession> session_;  // null while there is none
 
-    SpaceHandle stage_, head_, rendering_gaze_;
-    Input input_;
-    std::vector<uvec2> sizes_, foveated_sizes_;
-    std::vector<Swapchain> color_, depth_;
-    std::vector<HiddenMesh> hidden_meshes_;
-    std::uint64_t hidden_mesh_version_ = 0;
+    std::optional<Lost> loss_;  // of the session, until reconnect()
+    bool instance_is_lost_ = false;
+    std::optional<Clock::time_point> away_since_;  // the first loss since a frame was shown
+    Clock::time_point next_attempt_{};
+    std::string last_refusal_;
+    std::optional<Clock::time_point> leave_by_;  // once the exit was requested
+
     std::uint64_t frame_index_ = 0;
-    std::optional<XrTime> open_frame_;  // begun and not ended: its display time
-    Nanoseconds first_display_time_ = 0;
-    bool submission_recorded_ = false;
+    std::optional<Nanoseconds> clock_start_;  // the instance's time of the session time 0
+    Nanoseconds next_time_ = 0;               // session time after the last frame
+    bool image_is_late_ = false;
     // Held while tracking is lost.
     std::vector<View> last_views_;
     Pose last_head_;

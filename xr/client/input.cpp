@@ -82,10 +82,11 @@ void Input::suggest(const Instance& instance) const {
         const XrInteractionProfileSuggestedBinding info{
             XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING, nullptr, instance.path(profile),
             static_cast<std::uint32_t>(suggested.size()), suggested.data()};
-        if (const XrResult result = xrSuggestInteractionProfileBindings(instance.get(), &info);
-            XR_FAILED(result)) {
-            log::debug("{} takes no bindings for {}: {}", instance.runtime_name(), profile,
-                       result_name(result));
+        const XrResult result = xrSuggestInteractionProfileBindings(instance.get(), &info);
+        if (result == XR_ERROR_PATH_UNSUPPORTED) {
+            log::debug("{} takes no bindings for {}", instance.runtime_name(), profile);
+        } else {
+            check(result, "xrSuggestInteractionProfileBindings");
         }
     };
     const auto suggest_hands = [&](const char* profile, std::initializer_list<Binding> bindings) {

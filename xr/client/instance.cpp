@@ -21,8 +21,12 @@ constexpr const char* remedy =
 
 std::set<std::string> offered_extensions() {
     std::uint32_t count = 0;
-    if (XR_FAILED(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr))) {
-        throw_missing("OpenXR", "no runtime answers", remedy);
+    if (const XrResult result = xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr);
+        XR_FAILED(result)) {
+        throw_missing(
+            "OpenXR",
+            "no runtime answers: xrEnumerateInstanceExtensionProperties failed with " + result_name(result),
+            remedy);
     }
     std::vector<XrExtensionProperties> properties(count, {XR_TYPE_EXTENSION_PROPERTIES, nullptr, "", 0});
     check(xrEnumerateInstanceExtensionProperties(nullptr, count, &count, properties.data()),
@@ -45,12 +49,12 @@ BlendMode to_blend_mode(XrEnvironmentBlendMode mode) {
 
 }  // namespace
 
-Instance::Instance() {
-    create();
-    read_system();
+void Instance::reconnect() {
+    instance_.reset();
+    connect();
 }
 
-void Instance::create() {
+void Instance::connect() {
     // Or the loader writes to stderr that a runtime refuses 1.1, which is no error here.
     ::setenv("XR_LOADER_DEBUG", "none", 0);
     const std::set<std::string> offered = offered_extensions();
@@ -58,6 +62,7 @@ void Instance::create() {
         throw_missing("OpenXR runtime", "it lacks XR_KHR_vulkan_enable2",
                       "use another OpenXR runtime, or --runtime simulator");
     }
+    enabled_.clear();
     std::vector<const char*> names;
     for (const char* name : wanted_extensions) {
         if (!offered.contains(name)) continue;
@@ -75,19 +80,30 @@ void Instance::create() {
         result = xrCreateInstance(&info, instance_.put());
         if (result != XR_ERROR_API_VERSION_UNSUPPORTED) break;
     }
-    if (XR_FAILED(result)) throw_missing("OpenXR", "no runtime answers: " + result_name(result), remedy);
+    if (XR_FAILED(result))
+        throw_missing("OpenXR", "no runtime answers: xrCreateInstance failed with " + result_name(result),
+                      remedy);
 
     XrInstanceProperties properties{XR_TYPE_INSTANCE_PROPERTIES};
     check(xrGetInstanceProperties(get(), &properties), "xrGetInstanceProperties");
     runtime_name_ = properties.runtimeName;
 }
 
-void Instance::read_system() {
+bool Instance::find_headset() {
     const XrSystemGetInfo get_info{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
-    if (const XrResult result = xrGetSystem(get(), &get_info, &system_); XR_FAILED(result)) {
-        throw_missing("OpenXR runtime " + runtime_name_, "it has no headset: " + result_name(result),
-                      "connect the headset, or use --runtime simulator");
+    const XrResult result = xrGetSystem(get(), &get_info, &system_);
+    if (result == XR_ERROR_FORM_FACTOR_UNAVAILABLE) return false;
+    if (result == XR_ERROR_FORM_FACTOR_UNSUPPORTED) {
+        throw_missing("OpenXR runtime " + runtime_name_, "it knows of no headset: " + result_name(result),
+                      "use a runtime that has one, or --runtime simulator");
     }
+    check(result, "xrGetSystem");
+    read_properties();
+    read_view_configuration();
+    return true;
+}
+
+void Instance::read_properties() {
     XrSystemFoveatedRenderingPropertiesVARJO foveated{XR_TYPE_SYSTEM_FOVEATED_RENDERING_PROPERTIES_VARJO};
     XrSystemEyeGazeInteractionPropertiesEXT gaze{XR_TYPE_SYSTEM_EYE_GAZE_INTERACTION_PROPERTIES_EXT};
     XrSystemProperties properties{XR_TYPE_SYSTEM_PROPERTIES};
@@ -103,13 +119,16 @@ void Instance::read_system() {
     system_name_ = properties.systemName;
     has_eye_tracking_ = gaze.supportsEyeGazeInteraction == XR_TRUE;
     can_foveate_ = foveated.supportsFoveatedRendering == XR_TRUE;
+}
 
+void Instance::read_view_configuration() {
     std::uint32_t count = 0;
     check(xrEnumerateViewConfigurations(get(), system_, 0, &count, nullptr), "xrEnumerateViewConfigurations");
     std::vector<XrViewConfigurationType> types(count);
     check(xrEnumerateViewConfigurations(get(), system_, count, &count, types.data()),
           "xrEnumerateViewConfigurations");
     const auto offers = [&](auto type) { return std::find(types.begin(), types.end(), type) != types.end(); };
+    view_configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
     if (offers(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO)) {
         view_configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO;
     } else if (!offers(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO)) {
@@ -122,6 +141,7 @@ void Instance::read_system() {
     std::vector<XrEnvironmentBlendMode> modes(count);
     check(xrEnumerateEnvironmentBlendModes(get(), system_, view_configuration_, count, &count, modes.data()),
           "xrEnumerateEnvironmentBlendModes");
+    blend_modes_.clear();
     for (const auto mode : modes) blend_modes_.push_back(to_blend_mode(mode));
 }
 

@@ -10,11 +10,17 @@
 
 namespace foveray::xr {
 
-/// A connection to a runtime that has a headset, and what that headset offers.
+/// A connection to a runtime, and what the runtime's headset offers.
 class Instance {
   public:
-    /// Throws Fault(Missing) when no runtime answers, it lacks XR_KHR_vulkan_enable2, or has no headset.
-    Instance();
+    /// Throws Fault(Missing) when no runtime answers or it lacks XR_KHR_vulkan_enable2.
+    Instance() { connect(); }
+    /// Connects anew after the runtime lost the instance; everything made from that must be gone. Throws as
+    /// the constructor; what the headset offered stays until `find_headset`.
+    void reconnect();
+    /// Looks for the headset and reads what it offers. False: it is away for now. Throws Fault(Missing) when
+    /// the runtime never has one.
+    bool find_headset();
 
     XrInstance get() const { return instance_.get(); }
     XrSystemId system() const { return system_; }
@@ -41,8 +47,9 @@ class Instance {
     gpu::DeviceSource device_source() const;
 
   private:
-    void create();
-    void read_system();
+    void connect();
+    void read_properties();
+    void read_view_configuration();
 
     InstanceHandle instance_;
     std::set<std::string> enabled_;

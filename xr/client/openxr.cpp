@@ -2,9 +2,22 @@
 
 #include <openxr/openxr_reflection.h>
 
-#include "base/error.h"
-
 namespace foveray::xr {
+namespace {
+
+const char* remedy_for(XrResult result) {
+    switch (result) {
+        case XR_ERROR_OUT_OF_MEMORY:
+            return "end other programs, or show a smaller scene";
+        case XR_ERROR_RUNTIME_FAILURE:
+        case XR_ERROR_RUNTIME_UNAVAILABLE:
+            return "start the runtime anew, then foveray; its own log may tell why";
+        default:
+            return "`foveray doctor` shows the runtime; --runtime simulator needs none";
+    }
+}
+
+}  // namespace
 
 std::string result_name(XrResult result) {
     switch (result) {
@@ -18,16 +31,20 @@ std::string result_name(XrResult result) {
     }
 }
 
+Lost::Lost(What what_was_lost, std::string event)
+    : Fault(ExitCode::Missing, "OpenXR runtime", "it " + event,
+            "see that runtime and headset are running, and start foveray again"),
+      lost_(what_was_lost),
+      event_(std::move(event)) {}
+
 XrResult check(XrResult result, const char* call) {
-    if (result == XR_ERROR_SESSION_LOST || result == XR_ERROR_INSTANCE_LOST) {
-        throw_missing("OpenXR runtime", std::string("it lost the headset in ") + call,
-                      "see that runtime and headset are running, and start foveray again");
-    }
-    if (XR_FAILED(result)) {
-        throw_missing("OpenXR runtime", std::string(call) + " failed with " + result_name(result),
-                      "`foveray doctor` shows the runtime; --runtime simulator needs none");
-    }
-    return result;
+    if (XR_SUCCEEDED(result)) return result;
+    if (result == XR_ERROR_SESSION_LOST)
+        throw Lost(Lost::What::Session, std::string("lost the headset's session in ") + call);
+    if (result == XR_ERROR_INSTANCE_LOST)
+        throw Lost(Lost::What::Instance, std::string("lost the headset's instance in ") + call);
+    throw_missing("OpenXR runtime", std::string(call) + " failed with " + result_name(result),
+                  remedy_for(result));
 }
 
 Pose to_pose(const XrPosef& pose) {

@@ -10,12 +10,30 @@
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
+#include "base/error.h"
 #include "base/math.h"
 #include "base/view.h"
 
 namespace foveray::xr {
 
-/// Throws Fault(Missing) naming the call and the result unless it succeeded. Returns the (success) result.
+/// The runtime lost the session, or with the instance everything that was made from it. Both can be made
+/// anew.
+class Lost : public Fault {
+  public:
+    enum class What { Session, Instance };
+    /// event: "lost the session in xrWaitFrame", say.
+    Lost(What what_was_lost, std::string event);
+
+    bool with_instance() const { return lost_ == What::Instance; }
+    const std::string& event() const { return event_; }
+
+  private:
+    What lost_;
+    std::string event_;
+};
+
+/// Throws Lost, or Fault(Missing) naming the call and the result, unless it succeeded. Returns the (success)
+/// result.
 XrResult check(XrResult result, const char* call);
 std::string result_name(XrResult result);
 

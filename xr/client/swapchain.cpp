@@ -12,6 +12,10 @@ constexpr std::int64_t format_of(Swapchain::Kind kind) {
     return kind == Swapchain::Kind::Color ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_D32_SFLOAT;
 }
 
+// Together the half second of `acquire`.
+constexpr XrDuration image_wait = 100'000'000;
+constexpr int image_waits = 5;
+
 }  // namespace
 
 bool Swapchain::offers(XrSession session, Kind kind) {
@@ -49,23 +53,28 @@ Swapchain::Swapchain(XrSession session, Kind kind, uvec2 size, const char* name)
     for (const auto& image : images) images_.push_back(image.image);
 }
 
-void Swapchain::record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size) {
-    assert(!acquired_);
-    std::uint32_t index = 0;
-    {
-        const auto lock = cmd.device().lock_queue();
-        check(xrAcquireSwapchainImage(get(), nullptr, &index), "xrAcquireSwapchainImage");
+bool Swapchain::acquire(const gpu::Device& device) {
+    if (image_ == Image::Released) {
+        const auto lock = device.lock_queue();
+        check(xrAcquireSwapchainImage(get(), nullptr, &index_), "xrAcquireSwapchainImage");
+        image_ = Image::Acquired;
     }
-    const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
-    check(xrWaitSwapchainImage(get(), &wait), "xrWaitSwapchainImage");
-    acquired_ = true;
+    const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, image_wait};
+    for (int tries = 0; image_ == Image::Acquired && tries < image_waits; ++tries) {
+        if (check(xrWaitSwapchainImage(get(), &wait), "xrWaitSwapchainImage") != XR_TIMEOUT_EXPIRED)
+            image_ = Image::Writable;
+    }
+    return image_ == Image::Writable;
+}
 
+void Swapchain::record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size) {
+    assert(image_ == Image::Writable);
     using gpu::Access;
     using Layout = vk::ImageLayout;
     const bool color = kind_ == Kind::Color;
     const auto aspect = color ? vk::ImageAspectFlagBits::eColor : vk::ImageAspectFlagBits::eDepth;
     const Access attachment = color ? Access::ColorAttachment : Access::DepthAttachment;
-    const vk::Image image(images_[index]);
+    const vk::Image image(images_[index_]);
     gpu::transition(cmd.vk(), image, attachment, Layout::eUndefined, Access::TransferWrite,
                     Layout::eTransferDstOptimal, aspect);
     cmd->copyBufferToImage(source, image, Layout::eTransferDstOptimal,
@@ -75,10 +84,10 @@ void Swapchain::record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::Dev
 }
 
 void Swapchain::release(const gpu::Device& device) {
-    if (!acquired_) return;
+    if (image_ != Image::Writable) return;
     const auto lock = device.lock_queue();
     check(xrReleaseSwapchainImage(get(), nullptr), "xrReleaseSwapchainImage");
-    acquired_ = false;
+    image_ = Image::Released;
 }
 
 }  // namespace foveray::xr

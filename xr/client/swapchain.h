@@ -21,8 +21,10 @@ class Swapchain {
     XrSwapchain get() const { return handle_.get(); }
     explicit operator bool() const { return static_cast<bool>(handle_); }
 
-    /// Acquires an image, waits for it, and records the copy of a tightly packed picture into its top left
-    /// corner.
+    /// Gets an image that may be written, unless it has one. False: the runtime is not done with the image
+    /// within half a second; a later call waits for the same one.
+    bool acquire(const gpu::Device& device);
+    /// Records the copy of a tightly packed picture into the top left corner of the acquired image.
     void record_copy(const gpu::Commands& cmd, vk::Buffer source, vk::DeviceSize offset, uvec2 size);
     /// After the copy was submitted.
     void release(const gpu::Device& device);
@@ -33,7 +35,8 @@ class Swapchain {
     Kind kind_ = Kind::Color;
     SwapchainHandle handle_;
     std::vector<VkImage> images_;
-    bool acquired_ = false;
+    enum class Image { Released, Acquired, Writable } image_ = Image::Released;
+    std::uint32_t index_ = 0;  // of that image
 };
 
 }  // namespace foveray::xr

@@ -83,7 +83,7 @@ LightLayers LightRig::paint(const Shot& shot, const Rendered& rendered) {
 
 Rendered LightRig::render(const Shot& shot) {
     Frame frame;
-    frame.display_time = shot.time;
+    frame.time = shot.time;
     frame.views = shot.views;
     Rendered result;
     LightLayers settled;

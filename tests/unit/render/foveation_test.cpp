@@ -18,8 +18,8 @@ float angle_degrees(vec3 a, vec3 b) {
 class FoveationTest : public testing::Test {
   protected:
     Fovea next(bool valid, vec3 direction = aside) {
-        frame.display_time += 10 * nanoseconds_per_millisecond;
-        frame.gaze = {frame.display_time, valid, vec3(0.0f, 1.6f, 0.0f), direction};
+        frame.time += 10 * nanoseconds_per_millisecond;
+        frame.gaze = {frame.time, valid, vec3(0.0f, 1.6f, 0.0f), direction};
         return foveation.update(frame, settings);
     }
     Fovea after(int milliseconds, bool valid) {
@@ -93,7 +93,7 @@ TEST_F(FoveationTest, EasesBackFasterWhenTheGazeReturns) {
 
 TEST_F(FoveationTest, OneLongFrameEndsWhereManyShortOnesDo) {
     next(true);
-    frame.display_time += 290 * nanoseconds_per_millisecond;
+    frame.time += 290 * nanoseconds_per_millisecond;
     const Fovea long_step = next(false);  // 300 ms: 100 ms past the hold
     EXPECT_NEAR(long_step.radius_degrees, 0.5f * settings.fixed_fovea_degrees, 1e-3f);
 }

@@ -1,6 +1,8 @@
 #include "tests/xr/client/headset_fixture.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 namespace foveray::xr {
 
@@ -42,11 +44,16 @@ HeadsetTest::Played HeadsetTest::play(const SimulatorOptions& simulator, BlendMo
         const Headset::State state = headset.poll();
         played.ended = state == Headset::State::Ended;
         if (played.ended) break;
-        if (state == Headset::State::Waiting) continue;
-        const Frame frame = headset.begin_frame();
-        if (frame.should_render) each(headset, device, ring, frame, buffers);
-        headset.end_frame(frame);
-        played.frames.push_back(frame);
+        if (state == Headset::State::Lost) {
+            ring.wait();
+            headset.reconnect();
+        } else if (state == Headset::State::Waiting) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        } else if (const auto frame = headset.begin_frame()) {
+            if (frame->should_render) each(headset, device, ring, *frame, buffers);
+            headset.end_frame(*frame);
+            played.frames.push_back(*frame);
+        }
     }
     ring.wait();
     headset.stop();

@@ -101,31 +101,6 @@ TEST_F(HeadsetTest, EndsWhenAskedTo) {
     EXPECT_LT(played.frames.size(), 10u);
 }
 
-TEST_F(HeadsetTest, EndsWithAWordWhenTheRuntimeLosesTheHeadset) {
-    session_.frames = 20;
-    session_.events = {{3 * period, "session_loss", ""}};
-    log::init("info");
-    testing::internal::CaptureStderr();
-    const Played played = play(options());
-    const std::string said = testing::internal::GetCapturedStderr();
-    EXPECT_TRUE(played.ended);
-    EXPECT_EQ(played.frames.size(), 4u) << "the frame under way is the last";
-    EXPECT_TRUE(played.messages.empty());
-    EXPECT_NE(said.find("losing the headset"), std::string::npos) << said;
-}
-
-TEST_F(HeadsetTest, CallsAfterTheLossSaySo) {
-    session_.frames = 20;
-    session_.events = {{0, "session_loss", ""}};
-    Headset headset(RuntimeChoice::Simulator, options());
-    const gpu::Device device({.validation = true}, headset.device_source());
-    const StopAtEnd stop_at_end(headset);
-    headset.start(device, BlendMode::Opaque, 0.1f, 50.0f);
-    ASSERT_EQ(headset.poll(), Headset::State::Running);
-    headset.end_frame(headset.begin_frame());
-    fakes::expect_fault([&] { headset.begin_frame(); }, ExitCode::Missing, "lost the headset");
-}
-
 TEST_F(HeadsetTest, ReadsTheVisibilityMaskAgainWhenItChanges) {
     session_.headset = "ci-stereo";
     session_.frames = 8;

@@ -208,7 +208,7 @@ TEST_F(SubmissionTest, GoesOnAfterAFrameThatTheRuntimeDiscards) {
     std::vector<gpu::Buffer> kept;
     gpu::FrameRing ring(device, 1);
     const auto draw = [&] {
-        const Frame frame = headset.begin_frame();
+        const Frame frame = headset.begin_frame().value();
         const gpu::Commands cmd = ring.begin();
         record(headset, device, cmd, frame, kept);
         ring.submit();
