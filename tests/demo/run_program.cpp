@@ -1,11 +1,13 @@
 #include "tests/demo/run_program.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <spawn.h>
 #include <sstream>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -20,7 +22,7 @@ std::string file_bytes(const std::filesystem::path& file) {
     return text.str();
 }
 
-ProgramResult run_foveray(const std::vector<std::string>& arguments) {
+ProgramResult run_foveray(const std::vector<std::string>& arguments, std::chrono::seconds limit) {
     const TemporaryFolder folder;
     const std::string out = folder.path() / "out", err = folder.path() / "err";
     ::setenv("FOVERAY_VALIDATION", "1", 1);
@@ -39,7 +41,11 @@ ProgramResult run_foveray(const std::vector<std::string>& arguments) {
     posix_spawn_file_actions_destroy(&actions);
     if (failed) return result;
     int status = 0;
-    waitpid(child, &status, 0);
+    const auto until = std::chrono::steady_clock::now() + limit;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > until) ::kill(child, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.out = file_bytes(out);
     result.err = file_bytes(err);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,12 +10,14 @@
 namespace foveray::fakes {
 
 struct ProgramResult {
-    int exit_code = -1;  // 128 + signal for a crash
+    int exit_code = -1;  // 128 + signal for a crash, or for the end of its time
     std::string out, err;
 };
 
-/// Runs the built foveray with validation layers on, as a user would, and waits.
-ProgramResult run_foveray(const std::vector<std::string>& arguments);
+/// Runs the built foveray with validation layers on, as a user would, and waits. It is killed when it takes
+/// longer than `limit`.
+ProgramResult run_foveray(const std::vector<std::string>& arguments,
+                          std::chrono::seconds limit = std::chrono::hours(1));
 
 /// Replays the demo into `folder`/`name`, expects success without a validation message, and returns that
 /// path.

@@ -54,6 +54,25 @@ TEST(SessionRecorder, KeepsQualityWhereItChanges) {
     EXPECT_EQ(read_session(folder.path() / "session").quality, (std::vector{first, second}));
 }
 
+TEST(SessionRecorder, TellsWhereTheHeadIsNotTracked) {
+    const fakes::TemporaryFolder folder;
+    SessionRecorder recorder(folder.path() / "session", Session{});
+    for (std::uint64_t i = 0; i < 6; ++i) {
+        Frame frame = frame_at(i, static_cast<Nanoseconds>(i) * 10'000'000);
+        frame.head_valid = i < 2 || i > 3;
+        recorder.add(frame);
+    }
+    recorder.finish();
+    const Session session = read_session(folder.path() / "session");
+    EXPECT_EQ(session.frames, 6u);
+    EXPECT_EQ(session.head.size(), 4u);
+    ASSERT_EQ(session.events.size(), 2u);
+    EXPECT_EQ(session.events[0].name, "head_tracking_lost");
+    EXPECT_EQ(session.events[0].time, 20'000'000);
+    EXPECT_EQ(session.events[1].name, "head_tracking_gained");
+    EXPECT_EQ(session.events[1].time, 40'000'000);
+}
+
 TEST(SessionRecorder, NeverReplacesARecording) {
     const fakes::TemporaryFolder folder;
     folder.write("session/session.json", "{}");

@@ -1,13 +1,15 @@
 // Our client against the simulated headset, through the real loader.
 #include "xr/client/headset.h"
 
+#include <chrono>
 #include <cstdlib>
+#include <optional>
 
 #include <gtest/gtest.h>
 
-#include "base/log.h"
 #include "tests/fakes/expect_fault.h"
 #include "tests/xr/client/headset_fixture.h"
+#include "tests/xr/client/loader_spy.h"
 
 namespace foveray::xr {
 namespace {
@@ -99,6 +101,33 @@ TEST_F(HeadsetTest, EndsWhenAskedTo) {
     });
     EXPECT_TRUE(played.ended);
     EXPECT_LT(played.frames.size(), 10u);
+}
+
+TEST_F(HeadsetTest, EndsWhenAskedToThoughTheRuntimeDoesNotAnswer) {
+    SimulatorOptions simulator = options();
+    simulator.session.clear();
+    simulator.virtual_time = false;
+    loader_spy::swallow_exit_requests(true);
+    std::optional<Headset::Clock::time_point> asked;
+    const Played played = play(simulator, BlendMode::Opaque, [&](Headset& headset, auto&&...) {
+        if (asked) return;
+        headset.request_exit();
+        asked = Headset::Clock::now();
+    });
+    loader_spy::swallow_exit_requests(false);
+    EXPECT_TRUE(played.ended);
+    EXPECT_GT(played.frames.size(), 10u) << "it goes on meanwhile";
+    ASSERT_TRUE(asked);
+    EXPECT_LT(Headset::Clock::now() - *asked, std::chrono::seconds(5));
+}
+
+TEST_F(HeadsetTest, EndsAtOnceWhenAskedToBeforeTheRuntimeWantsFrames) {
+    Headset headset(RuntimeChoice::Simulator, options());
+    const gpu::Device device({.validation = true}, headset.device_source());
+    const StopAtEnd stop_at_end(headset);
+    headset.start(device, BlendMode::Opaque, 0.1f, 50.0f);
+    headset.request_exit();
+    EXPECT_EQ(headset.poll(), Headset::State::Ended);
 }
 
 TEST_F(HeadsetTest, ReadsTheVisibilityMaskAgainWhenItChanges) {

@@ -8,6 +8,7 @@ namespace {
 
 std::vector<EndedFrame> ended_frames;
 std::map<XrSwapchain, std::uint32_t> images;
+bool swallows_exit_requests = false;
 
 template <typename Function>
 Function loaders(const char* name) {
@@ -31,6 +32,8 @@ EndedFrame::Layer read_layer(const XrCompositionLayerProjection& projection) {
 std::vector<EndedFrame> take_ended_frames() { return std::exchange(ended_frames, {}); }
 
 std::uint32_t last_image(XrSwapchain swapchain) { return images.at(swapchain); }
+
+void swallow_exit_requests(bool swallow) { swallows_exit_requests = swallow; }
 
 }  // namespace foveray::xr::loader_spy
 
@@ -56,4 +59,9 @@ extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrAcquireSwapchainImage(XrSwapchain sw
         loader_spy::loaders<PFN_xrAcquireSwapchainImage>("xrAcquireSwapchainImage")(swapchain, info, index);
     if (XR_SUCCEEDED(result)) loader_spy::images[swapchain] = *index;
     return result;
+}
+
+extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrRequestExitSession(XrSession session) {
+    if (loader_spy::swallows_exit_requests) return XR_SUCCESS;
+    return loader_spy::loaders<PFN_xrRequestExitSession>("xrRequestExitSession")(session);
 }

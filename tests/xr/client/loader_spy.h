@@ -27,4 +27,7 @@ std::vector<EndedFrame> take_ended_frames();
 /// The image that the client last acquired from a swapchain.
 std::uint32_t last_image(XrSwapchain swapchain);
 
+/// From now on the runtime hears nothing of requests to exit.
+void swallow_exit_requests(bool swallow);
+
 }  // namespace foveray::xr::loader_spy
