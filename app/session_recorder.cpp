@@ -26,11 +26,12 @@ void SessionRecorder::add(const Frame& frame) {
     // drawn.
     session_.frames = static_cast<std::uint64_t>((frame.time + frame.period / 2) / frame.period) + 1;
     session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
-    if (std::exchange(head_valid_, frame.head_valid) != frame.head_valid) {
-        session_.events.push_back(
-            {frame.time, frame.head_valid ? "head_tracking_gained" : "head_tracking_lost", ""});
+    note(frame.time, head_tracked_, frame.head_valid, "head_tracking");
+    if (frame.head_valid) {
+        note(frame.time, position_tracked_, frame.head_position_tracked, "position_tracking");
+        note(frame.time, orientation_tracked_, frame.head_orientation_tracked, "orientation_tracking");
+        session_.head.push_back({frame.time, frame.stage_from_head});
     }
-    if (frame.head_valid) session_.head.push_back({frame.time, frame.stage_from_head});
     if (frame.has_eye_tracking) {
         const Pose head_from_stage = inverse(frame.stage_from_head);
         GazeSample gaze = frame.gaze;
@@ -45,6 +46,11 @@ void SessionRecorder::add(const Frame& frame) {
         const ControllerState& state = frame.controllers[hand];
         if (state.valid) session_.controllers.push_back({frame.time, hand, state});
     }
+}
+
+void SessionRecorder::note(Nanoseconds time, bool& was_tracked, bool is_tracked, const std::string& what) {
+    if (std::exchange(was_tracked, is_tracked) != is_tracked)
+        session_.events.push_back({time, what + (is_tracked ? "_gained" : "_lost"), ""});
 }
 
 void SessionRecorder::add(const Session::QualitySample& quality) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/frame.h"
 #include "base/headset_profile.h"
@@ -22,7 +23,8 @@ class SessionRecorder {
     bool knows_headset() const { return !session_.headset.empty(); }
     /// A headset that has no profile of its own: it goes into the folder.
     void set_headset(const HeadsetProfile& profile);
-    /// Where the head is not tracked it has no sample, and an event says so.
+    /// Where the head's pose is not known it has no sample; events say so, and where its position or
+    /// orientation is not measured.
     void add(const Frame& frame);
     /// What a frame was traced with. Kept where it differs from the frame before.
     void add(const Session::QualitySample& quality);
@@ -32,9 +34,11 @@ class SessionRecorder {
     void finish();
 
   private:
+    void note(Nanoseconds time, bool& was_tracked, bool is_tracked, const std::string& what);
+
     StagedFolder folder_;
     Session session_;
-    bool head_valid_ = true;  // of the last frame
+    bool head_tracked_ = true, position_tracked_ = true, orientation_tracked_ = true;  // in the last frame
 };
 
 }  // namespace foveray::app

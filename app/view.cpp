@@ -83,14 +83,13 @@ ExitCode run_view(const ViewOptions& options) {
     SceneReload reload(inputs, loop);
     std::optional<Mirror> mirror;
     if (window) mirror.emplace(device, *window);
-    log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
-
     catch_interrupts();  // from here on there is a recording to finish
     std::optional<SessionRecorder> recorder;
     if (options.record) {
         recorder.emplace(*options.record,
                          recording_header(options, inputs, headset.is_simulator() ? simulator.profile : ""));
     }
+    log::info("{} on {}; Ctrl-C ends", headset.instance().system_name(), device.name());
     bool exit_requested = false, scene_changed = false;
     QualityControl quality;
     const auto show_frames = [&] {

@@ -33,8 +33,9 @@ struct Frame {
     Nanoseconds period = 0;
     bool should_render = false;
     std::vector<View> views;  // left context, right context[, left focus, right focus]
-    bool head_valid = false;
-    Pose stage_from_head;
+    bool head_valid = false;  // the headset knows its pose
+    Pose stage_from_head;     // the last one known
+    bool head_position_tracked = true, head_orientation_tracked = true;  // measured, not guessed
     bool has_eye_tracking = false;
     GazeSample gaze;                             // in stage space
     std::array<ControllerState, 2> controllers;  // left, right

@@ -215,6 +215,8 @@ Frame RuntimeSession::begin_frame() {
     frame.stage_from_head = to_pose(head.pose);
     frame.head_valid =
         located_views.valid && (head.locationFlags & located) == located && is_usable(frame.stage_from_head);
+    frame.head_position_tracked = head.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+    frame.head_orientation_tracked = head.locationFlags & XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT;
     input_.update(session_.get(), stage_.get(), frame);
     return frame;
 }
