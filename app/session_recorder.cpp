@@ -24,8 +24,10 @@ void SessionRecorder::set_headset(const HeadsetProfile& profile) {
 void SessionRecorder::add(const Frame& frame) {
     // A slow machine skips display periods: the recording lasts as long as it did, not as many frames as were
     // drawn.
-    session_.frames = static_cast<std::uint64_t>((frame.time + frame.period / 2) / frame.period) + 1;
-    session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(frame.period);
+    // Runtimes tell a longer period while they are too slow themselves.
+    period_ = period_ == 0 ? frame.period : std::min(period_, frame.period);
+    session_.frames = static_cast<std::uint64_t>((frame.time + period_ / 2) / period_) + 1;
+    session_.rate_hz = static_cast<double>(nanoseconds_per_second) / static_cast<double>(period_);
     note(frame.time, head_tracked_, frame.head_valid, "head_tracking");
     if (frame.head_valid) {
         note(frame.time, position_tracked_, frame.head_position_tracked, "position_tracking");

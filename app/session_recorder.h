@@ -38,6 +38,7 @@ class SessionRecorder {
 
     StagedFolder folder_;
     Session session_;
+    Nanoseconds period_ = 0;  // of the display
     bool head_tracked_ = true, position_tracked_ = true, orientation_tracked_ = true;  // in the last frame
 };
 

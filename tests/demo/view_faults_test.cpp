@@ -1,11 +1,12 @@
 // `foveray view` under every fault that the simulated headset can play: what it does, what it says, and that
 // its recording can be read.
-#include <fstream>
+#include <chrono>
+#include <csignal>
 
 #include <gtest/gtest.h>
 
 #include "base/session.h"
-#include "tests/demo/run_program.h"
+#include "tests/demo/running_view.h"
 #include "tests/fakes/environment.h"
 
 namespace foveray {
@@ -109,27 +110,30 @@ constexpr Row rows[] = {
      .least_frames = 4},
 };
 
-class ViewFaultsTest : public testing::TestWithParam<Row> {
+class FaultsTest : public testing::Test {
   protected:
-    void SetUp() override {
+    void write(const std::string& faults) {
         folder_.write("scene.json",
                       R"({"format":"foveray-scene","version":1,"environment":{"color":[0.2,0.2,0.2]}})");
-        folder_.write("faults.csv", std::string("at,fault,value\n") + GetParam().faults);
-        Session script;
-        script.rate_hz = 30;
-        script.frames = 12;
-        write_session(folder_ / "script", script);
+        folder_.write("faults.csv", "at,fault,value\n" + faults);
     }
     std::string path(const char* name) const { return (folder_ / name).string(); }
 
     fakes::TemporaryFolder folder_;
+    const fakes::Environment faults_{"FOVERAY_SIMULATOR_FAULTS", path("faults.csv")};
 };
+
+class ViewFaultsTest : public FaultsTest, public testing::WithParamInterface<Row> {};
 
 TEST_P(ViewFaultsTest, EndsInTimeAndKeepsItsRecording) {
     const Row& row = GetParam();
+    write(row.faults);
+    Session script;
+    script.rate_hz = 30;
+    script.frames = 12;
+    write_session(folder_ / "script", script);
     const fakes::Environment runtime("XR_RUNTIME_JSON", FOVERAY_SIMULATOR_JSON),
-        session("FOVERAY_SIMULATOR_SESSION", path("script")), time("FOVERAY_SIMULATOR_TIME", "virtual"),
-        faults("FOVERAY_SIMULATOR_FAULTS", path("faults.csv"));
+        session("FOVERAY_SIMULATOR_SESSION", path("script")), time("FOVERAY_SIMULATOR_TIME", "virtual");
     const auto viewed = fakes::run_foveray({"view", path("scene.json"), "--runtime", "system", "--record",
                                             path("recording"), "--set", "foveation.resolution_scale=0.1"},
                                            std::chrono::seconds(60));
@@ -148,6 +152,32 @@ TEST_P(ViewFaultsTest, EndsInTimeAndKeepsItsRecording) {
 
 INSTANTIATE_TEST_SUITE_P(Faults, ViewFaultsTest, testing::ValuesIn(rows),
                          [](const auto& row) { return row.param.name; });
+
+class ViewInterruptTest : public FaultsTest {
+  protected:
+    /// The exit code of Ctrl-C once it says that.
+    int interrupt(const std::string& after) {
+        fakes::RunningView view(folder_, {"--record", path("recording")}, fakes::RunningView::Pictures::Kept);
+        view.wait_for(after);
+        const auto start = std::chrono::steady_clock::now();
+        const int code = view.end();
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << view.log();
+        return code;
+    }
+};
+
+TEST_F(ViewInterruptTest, EndsAtOnceWhileTheHeadsetIsLost) {
+    write("4,form_factor_lost,\n4,session_loss,\n");
+    EXPECT_EQ(interrupt("its headset is away"), 0);
+    EXPECT_GE(read_session(path("recording")).head.size(), 1u);
+}
+
+TEST_F(ViewInterruptTest, EndsAtOnceWhileTheHeadsetIsWaitedFor) {
+    write("start,form_factor_lost,\n");
+    EXPECT_EQ(interrupt("waiting for it"), 128 + SIGINT);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        EXPECT_EQ(entry.path().filename().string().find("recording"), std::string::npos) << entry.path();
+}
 
 }  // namespace
 }  // namespace foveray

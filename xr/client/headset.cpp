@@ -10,7 +10,7 @@
 namespace foveray::xr {
 namespace {
 
-constexpr std::chrono::milliseconds retry_interval{200}, exit_patience{1000};
+constexpr std::chrono::milliseconds exit_patience{1000};
 
 [[noreturn]] void throw_away(const Instance& instance) {
     throw_missing("OpenXR runtime " + instance.runtime_name(),
@@ -20,7 +20,7 @@ constexpr std::chrono::milliseconds retry_interval{200}, exit_patience{1000};
 
 }  // namespace
 
-Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator, std::chrono::milliseconds patience)
+Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator, const Patience& patience)
     : patience_(patience) {
     if (choice == RuntimeChoice::System) {
         instance_ = std::make_unique<Instance>();
@@ -48,11 +48,11 @@ Headset::Headset(RuntimeChoice choice, const SimulatorOptions& simulator, std::c
 Headset::~Headset() { stop(); }
 
 void Headset::wait_for_headset() {
-    const auto give_up = Clock::now() + patience_;
+    const auto give_up = Clock::now() + patience_.in_all;
     for (bool told = false; !instance_->find_headset(); told = true) {
         if (Clock::now() >= give_up) throw_away(*instance_);
         if (!told) log::info("{}: its headset is away; waiting for it", instance_->runtime_name());
-        std::this_thread::sleep_for(retry_interval);
+        std::this_thread::sleep_for(patience_.between_attempts);
     }
 }
 
@@ -106,7 +106,7 @@ Headset::State Headset::poll() {
 void Headset::reconnect() {
     assert(loss_);
     if (!away_since_) away_since_ = Clock::now();
-    if (Clock::now() - *away_since_ > patience_) throw Lost(*loss_);
+    if (Clock::now() - *away_since_ > patience_.in_all) throw Lost(*loss_);
     log::warn("the OpenXR runtime {} {}; connecting again", instance_->runtime_name(), loss_->event());
     session_.reset();
     instance_is_lost_ = loss_->with_instance();
@@ -116,7 +116,7 @@ void Headset::reconnect() {
 /// One attempt now and then.
 void Headset::connect() {
     if (Clock::now() < next_attempt_) return;
-    next_attempt_ = Clock::now() + retry_interval;
+    next_attempt_ = Clock::now() + patience_.between_attempts;
     try {
         if (instance_is_lost_) {
             clock_start_.reset();
@@ -128,7 +128,7 @@ void Headset::connect() {
         session_ = std::make_unique<RuntimeSession>(*instance_, *device_, presentation_);
         log::info("connected to {} again", system_name_);
     } catch (const Fault& fault) {
-        if (Clock::now() - *away_since_ > patience_) throw;
+        if (Clock::now() - *away_since_ > patience_.in_all) throw;
         const auto* lost = dynamic_cast<const Lost*>(&fault);
         instance_is_lost_ = instance_is_lost_ || (lost && lost->with_instance());
         if (fault.what() != last_refusal_) log::info("{}; trying again", fault.what());

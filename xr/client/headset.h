@@ -34,13 +34,16 @@ class Headset {
         Ended,
     };
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::seconds usual_patience{10};
+    /// How long a headset is waited for that is away at the start (but not by Auto), or was lost.
+    struct Patience {
+        std::chrono::milliseconds in_all{10'000}, between_attempts{200};
+    };
 
     /// Auto takes the system's runtime if one answers and has a headset; else it says why and takes the
-    /// simulator. `patience`: how long a headset is waited for that is away at the start (but not by Auto),
-    /// or was lost.
-    Headset(RuntimeChoice choice, const SimulatorOptions& simulator,
-            std::chrono::milliseconds patience = usual_patience);
+    /// simulator.
+    Headset(RuntimeChoice choice, const SimulatorOptions& simulator)
+        : Headset(choice, simulator, Patience()) {}
+    Headset(RuntimeChoice choice, const SimulatorOptions& simulator, const Patience& patience);
     ~Headset();
 
     const Instance& instance() const { return *instance_; }
@@ -85,7 +88,7 @@ class Headset {
     template <typename Call>
     void unless_lost(Call&& call);
 
-    std::chrono::milliseconds patience_;
+    Patience patience_;
     std::unique_ptr<Instance> instance_;
     bool is_simulator_ = false;
     std::optional<std::uint32_t> simulator_gpu_;

@@ -26,7 +26,9 @@ std::optional<XrResult> find_failure(const FunctionEntry& function, std::uint64_
     if (session && static_cast<const Session&>(*session).lost() &&
         may_answer(function, XR_ERROR_SESSION_LOST))
         return XR_ERROR_SESSION_LOST;
-    return instance.failing_calls().take(function);
+    const auto failure = instance.failing_calls().take(function);
+    if (failure == XR_ERROR_INSTANCE_LOST) instance.note_loss();
+    return failure;
 }
 
 }  // namespace

@@ -187,6 +187,10 @@ void Instance::play(const ScriptedFault& fault) {
             return;
     }
     calls_may_fail = true;
+    note_loss();
+}
+
+void Instance::note_loss() {
     const std::lock_guard lock(mutex_);
     loses_ = true;
 }

@@ -95,6 +95,8 @@ class Instance : public Object {
     std::vector<ScriptedFault> play_faults(Nanoseconds time);
     /// Every call but the destruction answers XR_ERROR_INSTANCE_LOST.
     bool lost() const;
+    /// The process's next instance goes on where this one leaves the script.
+    void note_loss();
     FailingCalls& failing_calls() { return *failing_calls_; }
     /// The form factor is available. While it is not and there is no session, each question plays the script:
     /// in virtual time one period further, in real time up to now.
@@ -156,7 +158,7 @@ class Instance : public Object {
     std::set<std::pair<bool, std::string>> names_;
     bool has_session_ = false;
     Nanoseconds played_until_;  // session time
-    bool loses_ = false;        // a loss was played
+    bool loses_ = false;        // a loss was played or told
 
     std::mutex control_mutex_;
     std::unique_ptr<ControlSocket> control_;  // its thread uses all of the above

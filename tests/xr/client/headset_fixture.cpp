@@ -34,7 +34,7 @@ SimulatorOptions HeadsetTest::options() {
 
 HeadsetTest::Played HeadsetTest::play(const SimulatorOptions& simulator, BlendMode blend, const Each& each) {
     Played played;
-    Headset headset(RuntimeChoice::Simulator, simulator);
+    Headset headset(RuntimeChoice::Simulator, simulator, patience_);
     const gpu::Device device({.validation = true}, headset.device_source());
     const StopAtEnd stop_at_end(headset);
     headset.start(device, blend, 0.1f, 50.0f);
@@ -48,7 +48,7 @@ HeadsetTest::Played HeadsetTest::play(const SimulatorOptions& simulator, BlendMo
             ring.wait();
             headset.reconnect();
         } else if (state == Headset::State::Waiting) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         } else if (const auto frame = headset.begin_frame()) {
             if (frame->should_render) each(headset, device, ring, *frame, buffers);
             headset.end_frame(*frame);

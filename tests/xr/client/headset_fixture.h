@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ class HeadsetTest : public testing::Test {
 
     fakes::TemporaryFolder folder_;
     Session session_;
+    Headset::Patience patience_{std::chrono::seconds(2), std::chrono::milliseconds(5)};
 };
 
 }  // namespace foveray::xr
