@@ -83,13 +83,12 @@ void Instance::connect() {
     if (XR_FAILED(result))
         throw_missing("OpenXR", "no runtime answers: xrCreateInstance failed with " + result_name(result),
                       remedy);
-
-    XrInstanceProperties properties{XR_TYPE_INSTANCE_PROPERTIES};
-    check(xrGetInstanceProperties(get(), &properties), "xrGetInstanceProperties");
-    runtime_name_ = properties.runtimeName;
 }
 
 bool Instance::find_headset() {
+    XrInstanceProperties properties{XR_TYPE_INSTANCE_PROPERTIES};
+    check(xrGetInstanceProperties(get(), &properties), "xrGetInstanceProperties");
+    runtime_name_ = properties.runtimeName;
     const XrSystemGetInfo get_info{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
     const XrResult result = xrGetSystem(get(), &get_info, &system_);
     if (result == XR_ERROR_FORM_FACTOR_UNAVAILABLE) return false;
