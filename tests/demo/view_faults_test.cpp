@@ -136,7 +136,7 @@ TEST_P(ViewFaultsTest, EndsInTimeAndKeepsItsRecording) {
         session("FOVERAY_SIMULATOR_SESSION", path("script")), time("FOVERAY_SIMULATOR_TIME", "virtual");
     const auto viewed = fakes::run_foveray({"view", path("scene.json"), "--runtime", "system", "--record",
                                             path("recording"), "--set", "foveation.resolution_scale=0.1"},
-                                           std::chrono::seconds(60));
+                                           std::chrono::minutes(5));
     EXPECT_EQ(viewed.exit_code, row.exit_code) << viewed.err;
     EXPECT_NE(viewed.err.find(row.says), std::string::npos) << viewed.err;
     EXPECT_EQ(viewed.err.find("Validation"), std::string::npos) << viewed.err;
@@ -161,7 +161,7 @@ class ViewInterruptTest : public FaultsTest {
         view.wait_for(after);
         const auto start = std::chrono::steady_clock::now();
         const int code = view.end();
-        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << view.log();
+        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20)) << view.log();
         return code;
     }
 };

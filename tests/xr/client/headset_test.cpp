@@ -118,7 +118,7 @@ TEST_F(HeadsetTest, EndsWhenAskedToThoughTheRuntimeDoesNotAnswer) {
     EXPECT_TRUE(played.ended);
     EXPECT_GT(played.frames.size(), 10u) << "it goes on meanwhile";
     ASSERT_TRUE(asked);
-    EXPECT_LT(Headset::Clock::now() - *asked, std::chrono::seconds(5));
+    EXPECT_LT(Headset::Clock::now() - *asked, std::chrono::seconds(20));
 }
 
 TEST_F(HeadsetTest, EndsAtOnceWhenAskedToBeforeTheRuntimeWantsFrames) {
