@@ -74,20 +74,26 @@ void add_json(CLI::App& sub, bool& json) {
     sub.add_flag("--json", json, "print the result as JSON on standard output");
 }
 
+void add_runtime(CLI::App& sub, xr::RuntimeChoice& runtime, const std::string& help,
+                 const std::vector<std::string>& names) {
+    allow_only(*sub.add_option_function<std::string>(
+                   "--runtime",
+                   [&runtime](const std::string& name) {
+                       runtime = name == "system"      ? xr::RuntimeChoice::System
+                                 : name == "simulator" ? xr::RuntimeChoice::Simulator
+                                                       : xr::RuntimeChoice::Auto;
+                   },
+                   help),
+               names);
+}
+
 void add_view(CLI::App& app, ViewOptions& options) {
     CLI::App& sub = *app.add_subcommand("view", "show a scene in the headset");
     sub.footer("Example:\n  foveray view assets/scenes/demo.json --runtime simulator --mirror");
     add_path(sub, "SCENE", options.scene, ".gltf, .glb or foveray scene file", "");
     add_picture_options(sub, options);
-    allow_only(*sub.add_option_function<std::string>(
-                   "--runtime",
-                   [&options](const std::string& name) {
-                       options.runtime = name == "system"      ? xr::RuntimeChoice::System
-                                         : name == "simulator" ? xr::RuntimeChoice::Simulator
-                                                               : xr::RuntimeChoice::Auto;
-                   },
-                   "OpenXR runtime; auto: the system's if it answers, else the simulator"),
-               {"auto", "system", "simulator"});
+    add_runtime(sub, options.runtime, "OpenXR runtime; auto: the system's if it answers, else the simulator",
+                {"auto", "system", "simulator"});
     sub.add_flag("--mirror", options.mirror, "open a desktop window that shows what the wearer sees");
     add_path(sub, "--record", options.record, "write what happens as a session", "DIR");
 }
@@ -105,6 +111,10 @@ void add_replay(CLI::App& app, ReplayOptions& options) {
            "--frames", [&options](const std::string& text) { options.frames = parse_frame_range(text); },
            "write frames A to B - 1 only; the ones before are simulated all the same")
         ->type_name("A:B");
+    add_runtime(
+        sub, options.runtime,
+        "system: in a worn headset, in real time; who wears it moves head and eyes, and no pictures are kept",
+        {"simulator", "system"});
     sub.add_flag("--reference", options.reference, "make every viewport pixel a sample, without foveation");
     add_json(sub, options.json);
 }

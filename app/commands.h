@@ -40,6 +40,7 @@ struct ViewOptions : PictureOptions {
 struct ReplayOptions : PictureOptions {
     std::filesystem::path session;
     std::filesystem::path out;
+    xr::RuntimeChoice runtime = xr::RuntimeChoice::Simulator;  // not Auto
     std::optional<FrameRange> frames;  // written frames; the ones before are simulated all the same
     bool reference = false;            // every viewport pixel a sample, no foveation
     bool json = false;

@@ -80,7 +80,8 @@ ExitCode run_replay(const ReplayOptions& options) {
     simulator.capture = out.path() / "frames";
     simulator.capture_frames = {range.first, range.end};
     simulator.gpu = options.gpu;
-    xr::Headset headset(xr::RuntimeChoice::Simulator, simulator);
+    const bool simulated = options.runtime == xr::RuntimeChoice::Simulator;
+    xr::Headset headset(options.runtime, simulator);
     gpu::DeviceOptions device_options;
     device_options.validation = validation_wanted();
     const gpu::Device device(device_options, headset.device_source());
@@ -90,8 +91,9 @@ ExitCode run_replay(const ReplayOptions& options) {
                   options.settings.far_m);
 
     FrameLoop loop({device, headset, inputs.scene, inputs.camera ? inputs.camera->source.get() : nullptr,
-                    inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt, profile.acuity,
-                    options.reference, 1, inputs.user_shaders});
+                    inputs.camera ? std::optional(inputs.camera->calibration) : std::nullopt,
+                    simulated ? std::optional(profile.acuity) : std::nullopt, options.reference, 1,
+                    inputs.user_shaders});
     std::vector<FrameMetrics> frames;
     std::vector<uvec2> view_sizes;
     Video video(out.path(), session.rate_hz);
@@ -111,7 +113,7 @@ ExitCode run_replay(const ReplayOptions& options) {
         done = step.frame.index + 1;
         if (step.rendered && step.frame.index >= range.first) {
             frames.push_back(*loop.metrics());
-            video.add(frames.back());
+            if (simulated) video.add(frames.back());
             for (std::size_t i = view_sizes.size(); i < step.frame.views.size(); ++i) {
                 view_sizes.push_back(step.frame.views[i].size);
             }

@@ -201,6 +201,7 @@ Headset::State Headset::poll() {
 }
 
 void Headset::on_state(XrSessionState state) {
+    log::debug("the session is in {}", state_name(state));
     switch (state) {
         case XR_SESSION_STATE_READY: {
             const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr,

@@ -44,4 +44,15 @@ Fov to_fov(const XrFovf& fov) { return {fov.angleLeft, fov.angleRight, fov.angle
 
 XrFovf to_xr(const Fov& fov) { return {fov.left, fov.right, fov.up, fov.down}; }
 
+const char* state_name(XrSessionState state) {
+    switch (state) {
+#define FOVERAY_CASE(name, value) \
+    case name:                    \
+        return #name;
+        XR_LIST_ENUM_XrSessionState(FOVERAY_CASE)
+#undef FOVERAY_CASE
+            default : return "an unknown state";
+    }
+}
+
 }  // namespace foveray::xr

@@ -56,4 +56,6 @@ XrPosef to_xr(const Pose& pose);
 Fov to_fov(const XrFovf& fov);
 XrFovf to_xr(const Fov& fov);
 
+const char* state_name(XrSessionState state);
+
 }  // namespace foveray::xr

@@ -1,6 +1,6 @@
 // A small OpenXR program with Vulkan: clears what each eye sees to a colour, for so many frames or until its
-// session ends.
-//   clear_colour [FRAMES]
+// session ends; with "quad" what focus displays show, too.
+//   clear_colour [FRAMES [quad]]
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -37,8 +37,10 @@ Function load(XrInstance instance, const char* name) {
 
 class ClearColour {
   public:
-    ClearColour() {
-        create_instance();
+    explicit ClearColour(bool quad)
+        : views_(quad ? XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO
+                      : XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
+        create_instance(quad);
         create_device();
         create_session();
         create_swapchains();
@@ -71,12 +73,13 @@ class ClearColour {
         std::vector<XrSwapchainImageVulkan2KHR> images;
     };
 
-    void create_instance() {
-        const char* const extensions[] = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
+    void create_instance(bool quad) {
+        const char* const extensions[] = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
+                                          XR_VARJO_QUAD_VIEWS_EXTENSION_NAME};
         XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
         std::strcpy(info.applicationInfo.applicationName, "clear_colour");
         info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
-        info.enabledExtensionCount = 1;
+        info.enabledExtensionCount = quad ? 2 : 1;
         info.enabledExtensionNames = extensions;
         CHECK(xrCreateInstance(&info, &instance_));
         const XrSystemGetInfo wanted{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
@@ -161,9 +164,9 @@ class ClearColour {
         std::vector<std::int64_t> formats(count);
         CHECK(xrEnumerateSwapchainFormats(session_, count, &count, formats.data()));
 
-        CHECK(xrEnumerateViewConfigurationViews(instance_, system_, stereo, 0, &count, nullptr));
+        CHECK(xrEnumerateViewConfigurationViews(instance_, system_, views_, 0, &count, nullptr));
         std::vector<XrViewConfigurationView> views(count, {XR_TYPE_VIEW_CONFIGURATION_VIEW});
-        CHECK(xrEnumerateViewConfigurationViews(instance_, system_, stereo, count, &count, views.data()));
+        CHECK(xrEnumerateViewConfigurationViews(instance_, system_, views_, count, &count, views.data()));
         for (const XrViewConfigurationView& view : views) {
             XrSwapchainCreateInfo info{XR_TYPE_SWAPCHAIN_CREATE_INFO};
             info.usageFlags = XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT | XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
@@ -193,7 +196,7 @@ class ClearColour {
             if (event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) continue;
             switch (reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state) {
                 case XR_SESSION_STATE_READY: {
-                    const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, stereo};
+                    const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, views_};
                     CHECK(xrBeginSession(session_, &info));
                     running_ = true;
                     break;
@@ -230,7 +233,7 @@ class ClearColour {
     }
 
     std::vector<XrCompositionLayerProjectionView> draw_views(XrTime time) {
-        const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, stereo, time, space_};
+        const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, views_, time, space_};
         XrViewState state{XR_TYPE_VIEW_STATE};
         std::uint32_t count = static_cast<std::uint32_t>(swapchains_.size());
         std::vector<XrView> eyes(count, {XR_TYPE_VIEW});
@@ -244,8 +247,8 @@ class ClearColour {
             const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr,
                                                 XR_INFINITE_DURATION};
             CHECK(xrWaitSwapchainImage(swapchain.handle, &wait));
-            clear(swapchain.images[image].image, i == 0 ? VkClearColorValue{{0.8f, 0.1f, 0.1f, 1.0f}}
-                                                        : VkClearColorValue{{0.1f, 0.1f, 0.8f, 1.0f}});
+            clear(swapchain.images[image].image, i % 2 == 0 ? VkClearColorValue{{0.8f, 0.1f, 0.1f, 1.0f}}
+                                                            : VkClearColorValue{{0.1f, 0.1f, 0.8f, 1.0f}});
             CHECK(xrReleaseSwapchainImage(swapchain.handle, nullptr));
             XrCompositionLayerProjectionView view{XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
             view.pose = eyes[i].pose;
@@ -286,8 +289,7 @@ class ClearColour {
         CHECK(vkResetFences(device_, 1, &fence_));
     }
 
-    static constexpr auto stereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
-
+    const XrViewConfigurationType views_;
     XrInstance instance_ = XR_NULL_HANDLE;
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
     VkInstance vulkan_ = VK_NULL_HANDLE;
@@ -308,7 +310,8 @@ class ClearColour {
 
 int main(int argc, char** argv) {
     try {
-        ClearColour().run(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 0);
+        ClearColour(argc > 2 && std::strcmp(argv[2], "quad") == 0)
+            .run(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 0);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "clear_colour: %s\n", error.what());
