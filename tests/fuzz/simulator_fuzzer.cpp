@@ -12,6 +12,7 @@
 #include "base/session.h"
 #include "tests/fakes/temporary_folder.h"
 #include "tests/fuzz/caller.h"
+#include "tests/fuzz/faults.h"
 #include "tests/fuzz/vulkan_binding.h"
 
 namespace foveray::fuzz {
@@ -129,6 +130,14 @@ int run(const Arguments& arguments) {
     write_session(folder.path() / "session", eventful_session());
     setenv("FOVERAY_SIMULATOR_SESSION", (folder.path() / "session").c_str(), 1);
     setenv("FOVERAY_SIMULATOR_TIME", "virtual", 1);
+    Random faults(arguments.seed);
+    write_faults(folder.path() / "session" / "faults.csv", faults);
+    // Commands come when they come: only without them a seed repeats a single thread's calls.
+    const bool commands = arguments.threads > 1;
+    if (commands) {
+        setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+        setenv("FOVERAY_SIMULATOR_CONTROL", "1", 1);
+    }
 
     const simulator_tests::DirectRuntime runtime;
     const Functions functions(runtime);
@@ -140,6 +149,10 @@ int run(const Arguments& arguments) {
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(arguments.seconds));
     std::thread rescuer([&] { free_waiting_threads(done, functions, handles); });
+    std::thread commander([&] {
+        const auto socket = folder.path() / "foveray-simulator" / std::to_string(getpid());
+        if (commands) send_commands(done, socket, Random(arguments.seed + 1000));
+    });
     std::vector<std::thread> threads;
     for (int i = 0; i < arguments.threads; ++i) {
         threads.emplace_back([&, i] {
@@ -151,6 +164,7 @@ int run(const Arguments& arguments) {
     for (std::thread& thread : threads) thread.join();
     done = true;
     rescuer.join();
+    commander.join();
     for (const XrInstance instance : handles.all<XrInstance>()) functions.xrDestroyInstance(instance);
     const auto say = [](const char* what, std::uint64_t count) {
         std::printf("%llu %s\n", static_cast<unsigned long long>(count), what);

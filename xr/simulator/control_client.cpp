@@ -1,4 +1,8 @@
 // foveray-openxr-simulator --control: sends commands to a simulated headset and prints its replies.
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -31,6 +35,18 @@ bool receive_line(int socket, std::string& line) {
     return false;
 }
 
+/// A program that was just started listens once it has made its instance.
+int connect_to_process(pid_t process) {
+    const auto path = foveray::simulator::control_socket_path(process);
+    for (int i = 0; i < 500; ++i) {
+        const int socket = foveray::simulator::connect_to_control(path);
+        const bool lives = kill(process, 0) == 0 || errno == EPERM;
+        if (socket >= 0 || !lives) return socket;
+        usleep(20'000);
+    }
+    return -1;
+}
+
 /// Prints the reply. The exit code.
 int ask(int socket, const std::string& line) {
     std::string reply;
@@ -52,15 +68,16 @@ int main(int count, char** arguments) {
         return exit_unreachable;
     }
     const std::string target = arguments[1];
-    const bool is_process = target.find_first_not_of("0123456789") == std::string::npos && !target.empty();
-    const auto path =
-        is_process ? foveray::simulator::control_folder() / target : std::filesystem::path(target);
-    const int socket = foveray::simulator::connect_to_control(path);
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(target.data(), target.data() + target.size(), process);
+    const bool is_process = error == std::errc{} && *end == '\0' && process > 0;
+    const int socket =
+        is_process ? connect_to_process(process) : foveray::simulator::connect_to_control(target);
     if (socket < 0) {
-        std::fprintf(stderr,
-                     "foveray-openxr-simulator: %s: no headset listens there (start its program with "
-                     "FOVERAY_SIMULATOR_CONTROL=1)\n",
-                     path.c_str());
+        std::fprintf(
+            stderr,
+            "foveray-openxr-simulator: %s: no headset listens there; start its program with --listen\n",
+            target.c_str());
         return exit_unreachable;
     }
     std::string line;

@@ -139,9 +139,10 @@ ControlSocket::Reply run_step(Instance& instance, Words words) {
     const std::uint64_t ends = instance.status().session_ends;
     instance.clock().step(static_cast<std::uint64_t>(frames));
     return [&instance, ends]() -> std::optional<std::string> {
-        if (instance.status().session_ends != ends) return "error the session ended";
-        if (!instance.clock().steps_done()) return std::nullopt;
-        return "ok frame=" + std::to_string(instance.status().frame);
+        if (instance.clock().steps_done()) return "ok frame=" + std::to_string(instance.status().frame);
+        if (instance.status().session_ends == ends) return std::nullopt;
+        instance.clock().drop_steps();
+        return "error the session ended";
     };
 }
 

@@ -1,10 +1,11 @@
 #include "xr/simulator/control_socket.h"
 
-#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <mutex>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -44,15 +45,21 @@ bool lies_a_socket_at(const fs::path& path) {
 
 void remove_dead_sockets(const fs::path& folder) {
     std::error_code ignored;
+    const auto is_dead = [](const std::string& process) {
+        pid_t id = 0;
+        const auto [end, error] = std::from_chars(process.data(), process.data() + process.size(), id);
+        return error == std::errc{} && *end == '\0' && id > 0 && kill(id, 0) != 0 && errno == ESRCH;
+    };
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool is_process = std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
-        if (is_process && lies_a_socket_at(entry.path()) && !is_listening(entry.path()))
+        if (is_dead(entry.path().filename().string()) && lies_a_socket_at(entry.path()) &&
+            !is_listening(entry.path()))
             unlink(entry.path().c_str());
     }
 }
 
 int listen_at(const fs::path& path) {
+    static std::mutex mutex;  // between two headsets of one program
+    const std::lock_guard lock(mutex);
     sockaddr_un address;
     if (!make_address(path, address)) throw_no_socket(path, "the path is too long");
     if (lies_a_socket_at(path)) {

@@ -16,10 +16,10 @@ bool tells_instance_loss(const FunctionEntry& function) {
 }
 
 std::optional<XrResult> find_failure(const FunctionEntry& function, std::uint64_t handle) {
+    object_of_call = handle;
     if (function.owner == Owner::None) return failing_calls_of_process().take(function);
     const auto root = find_root(handle);
     if (!root) return std::nullopt;  // the function itself refuses it
-    object_of_call = handle;
     auto& instance = static_cast<Instance&>(*root);
     if (instance.lost() && tells_instance_loss(function)) return XR_ERROR_INSTANCE_LOST;
     const auto session = find_ancestor(handle, XR_OBJECT_TYPE_SESSION);

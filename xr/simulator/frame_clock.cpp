@@ -101,6 +101,11 @@ void FrameClock::step(std::uint64_t frames) {
     stepped_.notify_all();
 }
 
+void FrameClock::drop_steps() {
+    const std::lock_guard lock(mutex_);
+    steps_ = 0;
+}
+
 bool FrameClock::steps_done() const {
     const std::lock_guard lock(mutex_);
     return steps_ == 0 && ended_index_ >= next_index_;

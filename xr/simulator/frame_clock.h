@@ -48,6 +48,8 @@ class FrameClock {
     FrameTime tick();
     /// Stepped time: lets so many frames more begin.
     void step(std::uint64_t frames);
+    /// Those that did not begin are not asked for any more.
+    void drop_steps();
     /// All frames that were asked for were handed in, or dropped for later ones.
     bool steps_done() const;
 

@@ -36,12 +36,12 @@ struct Entry<id, function> {
 
     static XRAPI_ATTR XrResult XRAPI_CALL call(First first, Others... others) noexcept {
         std::uint64_t handle = 0;
-        if constexpr (owner != Owner::None) {
-            if (!calls_may_fail) return function(first, others...);
-            handle = reinterpret_cast<std::uint64_t>(first);
+        if constexpr (owner != Owner::None) handle = reinterpret_cast<std::uint64_t>(first);
+        if (owner == Owner::None || calls_may_fail) {
+            if (const auto failure = scripted_failure(entry_of(id), handle)) return *failure;
         }
-        if (const auto answer = scripted_failure(entry_of(id), handle)) return *answer;
-        return with_notice(entry_of(id), handle, function(first, others...));
+        const XrResult result = function(first, others...);
+        return calls_may_fail ? with_notice(entry_of(id), handle, result) : result;
     }
 };
 

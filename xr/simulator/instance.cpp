@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "base/error.h"
 #include "xr/simulator/control_commands.h"
 #include "xr/simulator/control_path.h"
 #include "xr/simulator/openxr_vulkan.h"
@@ -97,12 +98,13 @@ Instance::Instance(std::set<std::string, std::less<>> features)
         play_faults(ScriptedFault::start);
     }
     if (options_.control.empty()) return;
-    if (options_.control == control_socket_path(getpid()) && is_listening(options_.control)) {
+    try {
+        control_ = std::make_unique<ControlSocket>(
+            options_.control, [this](const std::string& line) { return run_command(*this, line); });
+    } catch (const Fault&) {
+        if (options_.control != control_socket_path(getpid()) || !is_listening(options_.control)) throw;
         report(options_.control.string() + ": this program's second headset has no control socket");
-        return;
     }
-    control_ = std::make_unique<ControlSocket>(
-        options_.control, [this](const std::string& line) { return run_command(*this, line); });
 }
 
 void Instance::stage(Change change) {

@@ -301,6 +301,21 @@ TEST_F(ControlTest, NobodyWaitsForStepsOfASessionThatGoes) {
     EXPECT_EQ(connection.reply(), "error the session ended");
 }
 
+TEST_F(ControlTest, RealTimeCountsMissedFrames) {
+    set_environment({{"CONTROL", "1"}, {"TIME", "real"}});  // 30 Hz
+    SimulatorClient client(headless_extensions);
+    begin_headless(client);
+    client.empty_frame();
+    const XrFrameState slow = client.wait_frame();
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    EXPECT_EQ(xrBeginFrame(client.session, nullptr), XR_SUCCESS);
+    EXPECT_EQ(client.end_frame(slow.predictedDisplayTime), XR_SUCCESS);
+    const std::string state = ControlConnection(socket()).ask("state");
+    EXPECT_GE(std::stoi(state.substr(state.find("missed=") + 7)), 3) << state;
+    EXPECT_GT(client.empty_frame().predictedDisplayTime,
+              slow.predictedDisplayTime + 3 * slow.predictedDisplayPeriod);
+}
+
 TEST_F(ControlTest, ProgramsAreHeadsetsOfTheirOwnAndLeaveNothing) {
     set_environment({{"TIME", "stepped"}});
     const auto start = [] {

@@ -26,6 +26,22 @@ SESSION
 [ -f "$work/frames/frame_00001_left.png" ] || fail "no pictures"
 [ ! -e "$work/frames/frame_00002_left.png" ] || fail "a picture too many"
 
+# Stepped from outside: three frames, and then the session and the program end.
+XDG_RUNTIME_DIR=$work "$launcher" --session "$work/session" --time stepped -- \
+    "$foveray" view "$FOVERAY_ASSETS/scenes/primitives.json" --runtime system >"$work/log" 2>&1 &
+program=$!
+control() { XDG_RUNTIME_DIR=$work "$launcher" --control "$program" "$@"; }
+[ "$(control step 2)" = "ok frame=1" ] || fail "step 2 was not done"
+control state | grep -q "^ok state=FOCUSED frame=1 " || fail "no state"
+code=0
+printf 'press left/trigger\nfly\n' | control >"$work/replies" || code=$?
+[ "$code" = 1 ] && grep -qx ok "$work/replies" && grep -q "^error .*'fly'" "$work/replies" || fail "wrong replies"
+[ "$(control step)" = "ok frame=2" ] || fail "the last step was not done"
+wait "$program" || fail "exit code $?"
+code=0
+control state 2>/dev/null || code=$?
+[ "$code" = 2 ] || fail "a program that ended still listens: $code"
+
 code=0
 "$launcher" -- sh -c 'exit 7' || code=$?
 [ "$code" = 7 ] || { echo "exit code $code instead of 7"; exit 1; }
