@@ -66,13 +66,13 @@ Compositor::Compositor(VulkanDevice& device, const Background& background)
 void Compositor::make_buffers(const Eyes& eyes) {
     using Place = VulkanDevice::Place;
     constexpr auto storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    const VkDeviceSize bytes = 4 * (pixels_of(eyes[0]) + pixels_of(eyes[1]));
-    if (bytes_.size == bytes) return;
+    if (light_[0].size == 8 * pixels_of(eyes[0]) && light_[1].size == 8 * pixels_of(eyes[1])) return;
     for (std::size_t eye = 0; eye < 2; ++eye) {
         light_[eye] =
             device_.create_buffer(8 * pixels_of(eyes[eye]), storage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   Place::Gpu, "simulator light");
     }
+    const VkDeviceSize bytes = 4 * (pixels_of(eyes[0]) + pixels_of(eyes[1]));
     bytes_ = device_.create_buffer(bytes, storage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Place::Gpu,
                                    "simulator pictures");
     readback_ =

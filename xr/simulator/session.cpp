@@ -7,22 +7,6 @@
 #include "xr/simulator/optics.h"
 
 namespace foveray::simulator {
-namespace {
-
-// Of an eye's picture, pixels a side.
-constexpr float max_captured_size = 2048.0f, max_window_size = 1024.0f;
-
-std::array<EyeDisplay, 2> eye_displays(const HeadsetProfile& profile, XrViewConfigurationType type,
-                                       float max_size) {
-    return {eye_display(profile, type, Eye::Left, max_size),
-            eye_display(profile, type, Eye::Right, max_size)};
-}
-
-std::size_t pixel_count(const std::array<EyeDisplay, 2>& eyes) {
-    return std::size_t{eyes[0].size.x} * eyes[0].size.y + std::size_t{eyes[1].size.x} * eyes[1].size.y;
-}
-
-}  // namespace
 
 Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevice> device)
     : instance_(std::move(instance)),
@@ -30,27 +14,12 @@ Session::Session(std::shared_ptr<Instance> instance, std::unique_ptr<VulkanDevic
       devices_(*instance_),
       inputs_(*instance_, devices_),
       lifecycle_([this](XrSessionState state) { announce(state); }) {
-    if (device_) make_compositor();
     verify(instance_->claim_session(), XR_ERROR_LIMIT_REACHED);
-}
-
-void Session::make_compositor() {
-    const Options& options = instance_->options();
-    if (options.capture.empty() && !options.window) return;
-    if (!device_->can_compute()) {
-        report(
-            "the queue family of the graphics binding takes no compute commands, which captures and the "
-            "window need");
-        throw Refusal{XR_ERROR_GRAPHICS_DEVICE_INVALID};
-    }
-    compositor_.emplace(*device_, options.background);
-    if (!options.capture.empty()) capture_.emplace(options, *device_);
-    if (options.window) {
-        std::size_t pixels = 0;
-        for (const XrViewConfigurationType type : instance_->view_configurations())
-            pixels =
-                std::max(pixels, pixel_count(eye_displays(instance_->profile(), type, max_captured_size)));
-        window_.emplace(*compositor_, pixels);
+    try {
+        if (device_) display_.emplace(*instance_, *device_);
+    } catch (...) {
+        instance_->release_session();
+        throw;
     }
 }
 
@@ -66,11 +35,11 @@ void Session::on_destroy() {
         no_wait_.request_stop();
         frame_taken_.notify_all();
     }
-    if (window_) window_->settle();
+    if (display_) display_->settle();
 }
 
 void Session::release_images(const Swapchain& swapchain) {
-    if (window_) window_->release(swapchain);
+    if (display_) display_->release(swapchain);
 }
 
 void Session::start() {
@@ -265,35 +234,6 @@ XrResult Session::begin_frame() {
     return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-std::optional<double> Session::show(const FrameTime& frame, XrViewConfigurationType configuration,
-                                    const XrFrameEndInfo& info) {
-    SubmittedFrame submitted;
-    submitted.layers = read_layers(*this, info);
-    const Script& script = instance_->script();
-    if (script.ended(frame.index)) return std::nullopt;
-    const bool captured = capture_ && capture_->wants(frame.index), watched = window_ && window_->is_open();
-    if (!captured && !watched) return std::nullopt;
-    submitted.blend_mode = info.environmentBlendMode;
-    submitted.index = frame.index;
-    submitted.display_time = frame.display_time;
-    submitted.stage_from_head =
-        script.head_at(instance_->clock().session_time(frame.display_time)).stage_from_head;
-    const HeadsetProfile& profile = instance_->profile();
-    if (!captured) {
-        window_->show(submitted, eye_displays(profile, configuration, max_window_size));
-        return std::nullopt;  // it composes later, if at all
-    }
-
-    if (window_) window_->settle();
-    const auto eyes = eye_displays(profile, configuration, max_captured_size);
-    compositor_->start(submitted, eyes);
-    const EyePictures shown = compositor_->finish();
-    compositor_->forget();
-    capture_->write(frame.index, submitted.layers, shown);
-    if (watched) window_->publish(submitted, eyes, shown);
-    return compositor_->gpu_milliseconds();
-}
-
 void Session::end_frame(const XrFrameEndInfo& info) {
     const std::lock_guard end_lock(end_mutex_);
     std::unique_lock lock(mutex_);
@@ -305,7 +245,10 @@ void Session::end_frame(const XrFrameEndInfo& info) {
     lock.unlock();
 
     TimingFile::End end{TimingFile::now(), info.layerCount, 0, {}};
-    if (!headless()) end.composition_ms = show(frame, configuration, info);  // which shows no layers
+    if (display_) {
+        end.composition_ms =
+            display_->show(frame, configuration, info.environmentBlendMode, read_layers(*this, info));
+    }
 
     const Script& script = instance_->script();
     lock.lock();

@@ -10,15 +10,13 @@
 
 #include <openxr/openxr.h>
 
-#include "xr/simulator/capture.h"
-#include "xr/simulator/compositor.h"
 #include "xr/simulator/devices.h"
+#include "xr/simulator/display.h"
 #include "xr/simulator/handles.h"
 #include "xr/simulator/inputs.h"
 #include "xr/simulator/instance.h"
 #include "xr/simulator/lifecycle.h"
 #include "xr/simulator/vulkan_device.h"
-#include "xr/simulator/window_feed.h"
 
 namespace foveray::simulator {
 
@@ -84,19 +82,13 @@ class Session : public Object {
     void change_visibility_mask(bool has_mask);
     void announce_recentring(XrReferenceSpaceType type, Nanoseconds time, const Pose& previous_from_next);
     void announce_presence();
-    void make_compositor();
-    /// The milliseconds that the GPU took to compose it; nothing when it was not composed at once.
-    std::optional<double> show(const FrameTime& frame, XrViewConfigurationType configuration,
-                               const XrFrameEndInfo& info);
 
     std::shared_ptr<Instance> instance_;
     std::unique_ptr<VulkanDevice> device_;
     DebugLabels labels_;
     Devices devices_;
     Inputs inputs_;
-    std::optional<Compositor> compositor_;  // when something is captured or shown in a window
-    std::optional<Capture> capture_;
-    std::optional<WindowFeed> window_;
+    std::optional<Display> display_;  // not of headless sessions
 
     std::mutex end_mutex_;  // one xrEndFrame at a time; taken before mutex_
     std::atomic<std::uint32_t> view_count_ = 0;

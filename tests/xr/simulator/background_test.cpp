@@ -123,6 +123,8 @@ TEST_F(Backgrounds, APictureThatCannotBeReadFailsTheSession) {
     const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &client_->vulkan->binding(), 0,
                                    SimulatorClient::system};
     EXPECT_EQ(xrCreateSession(client_->instance, &info, &client_->session), XR_ERROR_RUNTIME_FAILURE);
+    write_columns("no.png", 4, 4, {{1, 2, 3}});
+    EXPECT_EQ(xrCreateSession(client_->instance, &info, &client_->session), XR_SUCCESS) << "mended";
 }
 
 }  // namespace
