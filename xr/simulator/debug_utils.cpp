@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "xr/simulator/api/names.h"
 #include "xr/simulator/instance.h"
-#include "xr/simulator/names.h"
 #include "xr/simulator/session.h"
 
 namespace foveray::simulator {

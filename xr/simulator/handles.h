@@ -5,7 +5,7 @@
 
 #include <openxr/openxr.h>
 
-#include "xr/simulator/verify.h"
+#include "xr/simulator/api/verify.h"
 
 /// Handles are numbers that are never used twice, so that a garbage or destroyed one is refused and never
 /// dereferenced. Safe to use from any thread.

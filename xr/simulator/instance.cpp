@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "xr/simulator/control_commands.h"
-#include "xr/simulator/control_path.h"
-#include "xr/simulator/openxr_vulkan.h"
-#include "xr/simulator/optics.h"
+#include "xr/simulator/api/openxr_vulkan.h"
+#include "xr/simulator/control/control_commands.h"
+#include "xr/simulator/control/control_path.h"
+#include "xr/simulator/display/optics.h"
 #include "xr/simulator/vulkan_device.h"
 
 namespace foveray::simulator {

@@ -14,16 +14,16 @@
 #include <openxr/openxr.h>
 #include <vulkan/vulkan.h>
 
-#include "xr/simulator/control_socket.h"
+#include "xr/simulator/api/failing_calls.h"
+#include "xr/simulator/api/openxr_1_1.h"
+#include "xr/simulator/control/control_socket.h"
 #include "xr/simulator/debug_utils.h"
 #include "xr/simulator/events.h"
-#include "xr/simulator/failing_calls.h"
 #include "xr/simulator/frame_clock.h"
 #include "xr/simulator/handles.h"
-#include "xr/simulator/openxr_1_1.h"
 #include "xr/simulator/options.h"
 #include "xr/simulator/paths.h"
-#include "xr/simulator/script.h"
+#include "xr/simulator/script/script.h"
 #include "xr/simulator/timing_file.h"
 #include "xr/simulator/vulkan_device.h"
 

@@ -1,6 +1,6 @@
 #include "xr/simulator/lifecycle.h"
 
-#include "xr/simulator/verify.h"
+#include "xr/simulator/api/verify.h"
 
 namespace foveray::simulator {
 

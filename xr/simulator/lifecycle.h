@@ -4,7 +4,7 @@
 
 #include <openxr/openxr.h>
 
-#include "xr/simulator/script.h"
+#include "xr/simulator/script/script.h"
 
 namespace foveray::simulator {
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "xr/simulator/control_path.h"
+#include "xr/simulator/control/control_path.h"
 
 namespace foveray::simulator {
 namespace {

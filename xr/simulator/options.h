@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "xr/simulator/background.h"
-#include "xr/simulator/gaze_tracker.h"
-#include "xr/simulator/pattern.h"
+#include "xr/simulator/display/background.h"
+#include "xr/simulator/script/gaze_tracker.h"
+#include "xr/simulator/script/pattern.h"
 
 namespace foveray::simulator {
 

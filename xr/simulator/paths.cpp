@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "xr/simulator/verify.h"
+#include "xr/simulator/api/verify.h"
 
 namespace foveray::simulator {
 

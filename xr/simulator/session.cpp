@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "xr/simulator/convert.h"
-#include "xr/simulator/layers.h"
-#include "xr/simulator/optics.h"
+#include "xr/simulator/display/layers.h"
+#include "xr/simulator/display/optics.h"
 
 namespace foveray::simulator {
 

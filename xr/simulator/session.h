@@ -10,10 +10,10 @@
 
 #include <openxr/openxr.h>
 
-#include "xr/simulator/devices.h"
-#include "xr/simulator/display.h"
+#include "xr/simulator/display/display.h"
 #include "xr/simulator/handles.h"
-#include "xr/simulator/inputs.h"
+#include "xr/simulator/input/devices.h"
+#include "xr/simulator/input/inputs.h"
 #include "xr/simulator/instance.h"
 #include "xr/simulator/lifecycle.h"
 #include "xr/simulator/vulkan_device.h"

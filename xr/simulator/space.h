@@ -6,8 +6,8 @@
 #include <openxr/openxr.h>
 
 #include "base/math.h"
-#include "xr/simulator/actions.h"
 #include "xr/simulator/handles.h"
+#include "xr/simulator/input/actions.h"
 #include "xr/simulator/placement.h"
 
 namespace foveray::simulator {

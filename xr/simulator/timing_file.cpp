@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "xr/simulator/call_cost.h"
+#include "xr/simulator/api/call_cost.h"
 
 namespace foveray::simulator {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "xr/simulator/verify.h"
+#include "xr/simulator/api/verify.h"
 
 namespace foveray::simulator {
 

@@ -4,7 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "xr/simulator/control_path.h"
+#include "xr/simulator/control/control_path.h"
 
 namespace foveray::simulator {
 namespace {

@@ -1,5 +1,5 @@
 // foveray-simulator-window: shows what a simulated headset shows, and moves its wearer's head. The headset's
-// library starts it (xr/simulator/window_feed.h).
+// library starts it (xr/simulator/display/window_feed.h).
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
