@@ -55,15 +55,8 @@ const std::vector<std::string> path_texts{
 
 Functions::Functions(const simulator_tests::DirectRuntime& runtime) {
     const XrInstance instance = runtime.create_instance(extensions);
-    const auto load = [&](auto& function, const char* name) {
-        function = runtime.load<std::remove_reference_t<decltype(function)>>(instance, name);
-        if (function) return;
-        std::fprintf(stderr, "the simulator has no %s\n", name);
-        std::abort();
-    };
-#define FOVERAY_LOAD(name) load(name, #name);
-    FOVERAY_FUZZED_FUNCTIONS(FOVERAY_LOAD)
-    FOVERAY_FUZZED_FUNCTIONS_OF_1_1(FOVERAY_LOAD)
+#define FOVERAY_LOAD(name, feature) name = runtime.load<PFN_##name>(instance, #name);
+    FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_LOAD)
 #undef FOVERAY_LOAD
     xrDestroyInstance(instance);
 }

@@ -11,102 +11,16 @@
 #include "tests/fuzz/handle_pool.h"
 #include "tests/fuzz/random.h"
 #include "tests/xr/simulator/direct_runtime.h"
+#include "xr/simulator/api/functions.h"
 
 namespace foveray::fuzz {
 
-/// Every function of the simulator that is called, by its name.
-// clang-format off
-#define FOVERAY_FUZZED_FUNCTIONS(_)               \
-    _(xrGetInstanceProcAddr)                      \
-    _(xrCreateInstance)                           \
-    _(xrDestroyInstance)                          \
-    _(xrEnumerateApiLayerProperties)              \
-    _(xrEnumerateInstanceExtensionProperties)     \
-    _(xrGetInstanceProperties)                    \
-    _(xrPollEvent)                                \
-    _(xrResultToString)                           \
-    _(xrStructureTypeToString)                    \
-    _(xrStringToPath)                             \
-    _(xrPathToString)                             \
-    _(xrGetSystem)                                \
-    _(xrGetSystemProperties)                      \
-    _(xrEnumerateEnvironmentBlendModes)           \
-    _(xrEnumerateViewConfigurations)              \
-    _(xrGetViewConfigurationProperties)           \
-    _(xrEnumerateViewConfigurationViews)          \
-    _(xrCreateSession)                            \
-    _(xrDestroySession)                           \
-    _(xrBeginSession)                             \
-    _(xrEndSession)                               \
-    _(xrRequestExitSession)                       \
-    _(xrWaitFrame)                                \
-    _(xrBeginFrame)                               \
-    _(xrEndFrame)                                 \
-    _(xrLocateViews)                              \
-    _(xrEnumerateReferenceSpaces)                 \
-    _(xrCreateReferenceSpace)                     \
-    _(xrGetReferenceSpaceBoundsRect)              \
-    _(xrCreateActionSpace)                        \
-    _(xrLocateSpace)                              \
-    _(xrDestroySpace)                             \
-    _(xrEnumerateSwapchainFormats)                \
-    _(xrCreateSwapchain)                          \
-    _(xrDestroySwapchain)                         \
-    _(xrEnumerateSwapchainImages)                 \
-    _(xrAcquireSwapchainImage)                    \
-    _(xrWaitSwapchainImage)                       \
-    _(xrReleaseSwapchainImage)                    \
-    _(xrCreateActionSet)                          \
-    _(xrDestroyActionSet)                         \
-    _(xrCreateAction)                             \
-    _(xrDestroyAction)                            \
-    _(xrSuggestInteractionProfileBindings)        \
-    _(xrAttachSessionActionSets)                  \
-    _(xrGetCurrentInteractionProfile)             \
-    _(xrGetActionStateBoolean)                    \
-    _(xrGetActionStateFloat)                      \
-    _(xrGetActionStateVector2f)                   \
-    _(xrGetActionStatePose)                       \
-    _(xrSyncActions)                              \
-    _(xrEnumerateBoundSourcesForAction)           \
-    _(xrGetInputSourceLocalizedName)              \
-    _(xrApplyHapticFeedback)                      \
-    _(xrStopHapticFeedback)                       \
-    _(xrGetVisibilityMaskKHR)                     \
-    _(xrGetVulkanInstanceExtensionsKHR)           \
-    _(xrGetVulkanDeviceExtensionsKHR)             \
-    _(xrGetVulkanGraphicsDeviceKHR)               \
-    _(xrGetVulkanGraphicsRequirementsKHR)         \
-    _(xrGetVulkanGraphicsRequirements2KHR)        \
-    _(xrSetDebugUtilsObjectNameEXT)               \
-    _(xrCreateDebugUtilsMessengerEXT)             \
-    _(xrDestroyDebugUtilsMessengerEXT)            \
-    _(xrSubmitDebugUtilsMessageEXT)               \
-    _(xrSessionBeginDebugUtilsLabelRegionEXT)     \
-    _(xrSessionEndDebugUtilsLabelRegionEXT)       \
-    _(xrSessionInsertDebugUtilsLabelEXT)          \
-    _(xrCreateHandTrackerEXT)                     \
-    _(xrDestroyHandTrackerEXT)                    \
-    _(xrLocateHandJointsEXT)                      \
-    _(xrSetInputDeviceActiveEXT)                  \
-    _(xrSetInputDeviceStateBoolEXT)               \
-    _(xrSetInputDeviceStateFloatEXT)              \
-    _(xrSetInputDeviceStateVector2fEXT)           \
-    _(xrSetInputDeviceLocationEXT)
-// clang-format on
-#ifdef XR_VERSION_1_1
-#define FOVERAY_FUZZED_FUNCTIONS_OF_1_1(_) _(xrLocateSpacesKHR)
-#else
-#define FOVERAY_FUZZED_FUNCTIONS_OF_1_1(_)
-#endif
-
 struct Functions {
-#define FOVERAY_MEMBER(name) PFN_##name name = nullptr;
-    FOVERAY_FUZZED_FUNCTIONS(FOVERAY_MEMBER)
-    FOVERAY_FUZZED_FUNCTIONS_OF_1_1(FOVERAY_MEMBER)
+#define FOVERAY_MEMBER(name, feature) PFN_##name name = nullptr;
+    FOVERAY_SIMULATOR_FUNCTIONS(FOVERAY_MEMBER)
 #undef FOVERAY_MEMBER
 
-    /// Those of extensions come from an instance that has them all. Ends the program when one is missing.
+    /// From an instance that has all extensions; null where they do not bring it.
     explicit Functions(const simulator_tests::DirectRuntime& runtime);
 };
 

@@ -103,7 +103,9 @@ Instance::Instance(std::set<std::string, std::less<>> features)
             options_.control, [this](const std::string& line) { return run_command(*this, line); });
     } catch (const Fault&) {
         if (options_.control != control_socket_path(getpid()) || !is_listening(options_.control)) throw;
-        report(options_.control.string() + ": this program's second headset has no control socket");
+        static std::atomic<bool> reported = false;
+        if (!reported.exchange(true))
+            report(options_.control.string() + ": this program's second headset has no control socket");
     }
 }
 

@@ -1,97 +1,17 @@
 // Handles that are garbage, destroyed, of another type or of another instance, in every function.
 #include <cstring>
 #include <functional>
+#include <string_view>
 #include <typeindex>
 
 #include <gtest/gtest.h>
 
 #include "tests/xr/simulator/direct_runtime.h"
 #include "tests/xr/simulator/simulator_client.h"
+#include "xr/simulator/api/functions.h"
 
 namespace foveray::simulator_tests {
 namespace {
-
-/// All functions whose first parameter is a handle.
-// clang-format off
-#define HANDLE_FUNCTIONS(_)                       \
-    _(xrDestroyInstance)                          \
-    _(xrGetInstanceProperties)                    \
-    _(xrPollEvent)                                \
-    _(xrResultToString)                           \
-    _(xrStructureTypeToString)                    \
-    _(xrStringToPath)                             \
-    _(xrPathToString)                             \
-    _(xrGetSystem)                                \
-    _(xrGetSystemProperties)                      \
-    _(xrEnumerateEnvironmentBlendModes)           \
-    _(xrEnumerateViewConfigurations)              \
-    _(xrGetViewConfigurationProperties)           \
-    _(xrEnumerateViewConfigurationViews)          \
-    _(xrCreateSession)                            \
-    _(xrDestroySession)                           \
-    _(xrBeginSession)                             \
-    _(xrEndSession)                               \
-    _(xrRequestExitSession)                       \
-    _(xrWaitFrame)                                \
-    _(xrBeginFrame)                               \
-    _(xrEndFrame)                                 \
-    _(xrLocateViews)                              \
-    _(xrEnumerateReferenceSpaces)                 \
-    _(xrCreateReferenceSpace)                     \
-    _(xrGetReferenceSpaceBoundsRect)              \
-    _(xrCreateActionSpace)                        \
-    _(xrLocateSpace)                              \
-    _(xrDestroySpace)                             \
-    _(xrEnumerateSwapchainFormats)                \
-    _(xrCreateSwapchain)                          \
-    _(xrDestroySwapchain)                         \
-    _(xrEnumerateSwapchainImages)                 \
-    _(xrAcquireSwapchainImage)                    \
-    _(xrWaitSwapchainImage)                       \
-    _(xrReleaseSwapchainImage)                    \
-    _(xrCreateActionSet)                          \
-    _(xrDestroyActionSet)                         \
-    _(xrCreateAction)                             \
-    _(xrDestroyAction)                            \
-    _(xrSuggestInteractionProfileBindings)        \
-    _(xrAttachSessionActionSets)                  \
-    _(xrGetCurrentInteractionProfile)             \
-    _(xrGetActionStateBoolean)                    \
-    _(xrGetActionStateFloat)                      \
-    _(xrGetActionStateVector2f)                   \
-    _(xrGetActionStatePose)                       \
-    _(xrSyncActions)                              \
-    _(xrEnumerateBoundSourcesForAction)           \
-    _(xrGetInputSourceLocalizedName)              \
-    _(xrApplyHapticFeedback)                      \
-    _(xrStopHapticFeedback)                       \
-    _(xrGetVisibilityMaskKHR)                     \
-    _(xrGetVulkanInstanceExtensionsKHR)           \
-    _(xrGetVulkanDeviceExtensionsKHR)             \
-    _(xrGetVulkanGraphicsDeviceKHR)               \
-    _(xrGetVulkanGraphicsRequirementsKHR)         \
-    _(xrCreateVulkanInstanceKHR)                  \
-    _(xrCreateVulkanDeviceKHR)                    \
-    _(xrGetVulkanGraphicsDevice2KHR)              \
-    _(xrGetVulkanGraphicsRequirements2KHR)        \
-    _(xrConvertTimespecTimeToTimeKHR)             \
-    _(xrConvertTimeToTimespecTimeKHR)             \
-    _(xrSetDebugUtilsObjectNameEXT)               \
-    _(xrCreateDebugUtilsMessengerEXT)             \
-    _(xrDestroyDebugUtilsMessengerEXT)            \
-    _(xrSubmitDebugUtilsMessageEXT)               \
-    _(xrSessionBeginDebugUtilsLabelRegionEXT)     \
-    _(xrSessionEndDebugUtilsLabelRegionEXT)       \
-    _(xrSessionInsertDebugUtilsLabelEXT)          \
-    _(xrCreateHandTrackerEXT)                     \
-    _(xrDestroyHandTrackerEXT)                    \
-    _(xrLocateHandJointsEXT)                      \
-    _(xrSetInputDeviceActiveEXT)                  \
-    _(xrSetInputDeviceStateBoolEXT)               \
-    _(xrSetInputDeviceStateFloatEXT)              \
-    _(xrSetInputDeviceStateVector2fEXT)           \
-    _(xrSetInputDeviceLocationEXT)
-// clang-format on
 
 struct HandleFunction {
     const char* name;
@@ -99,11 +19,19 @@ struct HandleFunction {
     std::function<XrResult(std::uint64_t)> call;  // with that handle and nothing else
 };
 
-template <typename Handle, typename... Rest>
-HandleFunction make_entry(const char* name, XrResult (*function)(Handle, Rest...)) {
-    return {name, typeid(Handle), [function](std::uint64_t handle) {
-                return function(reinterpret_cast<Handle>(handle), Rest{}...);
-            }};
+template <typename T>
+constexpr bool is_handle = std::is_pointer_v<T> && !std::is_const_v<std::remove_pointer_t<T>>;
+
+/// Functions without a handle are left out.
+template <typename First, typename... Rest>
+void add(std::vector<HandleFunction>& list, const char* name, XrResult (*function)(First, Rest...)) {
+    if constexpr (is_handle<First>) {
+        EXPECT_NE(function, nullptr) << name;
+        if (!function) return;
+        list.push_back({name, typeid(First), [function](std::uint64_t handle) {
+                            return function(reinterpret_cast<First>(handle), Rest{}...);
+                        }});
+    }
 }
 
 struct TypedHandle {
@@ -156,11 +84,16 @@ class Handles : public testing::Test {
     /// An instance with one object of each type that needs no graphics.
     Objects make() {
         Objects made;
-        made.instance = runtime_.create_instance(
-            {XR_MND_HEADLESS_EXTENSION_NAME, XR_EXT_HAND_TRACKING_EXTENSION_NAME,
-             XR_EXT_DEBUG_UTILS_EXTENSION_NAME, XR_EXT_CONFORMANCE_AUTOMATION_EXTENSION_NAME,
-             XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
-             XR_KHR_VULKAN_ENABLE_EXTENSION_NAME, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME});
+        std::vector<const char*> extensions{XR_MND_HEADLESS_EXTENSION_NAME,
+                                            XR_EXT_HAND_TRACKING_EXTENSION_NAME,
+                                            XR_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                            XR_EXT_CONFORMANCE_AUTOMATION_EXTENSION_NAME,
+                                            XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME,
+                                            XR_KHR_VISIBILITY_MASK_EXTENSION_NAME,
+                                            XR_KHR_VULKAN_ENABLE_EXTENSION_NAME,
+                                            XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
+        if (simulator::has_openxr_1_1) extensions.push_back(XR_KHR_LOCATE_SPACES_EXTENSION_NAME);
+        made.instance = runtime_.create_instance(extensions);
         if (!first_.instance) first_.instance = made.instance;
         const XrSessionCreateInfo session_info{XR_TYPE_SESSION_CREATE_INFO, nullptr, 0, 1};
         EXPECT_EQ(load<PFN_xrCreateSession>("xrCreateSession")(made.instance, &session_info, &made.session),
@@ -196,15 +129,17 @@ class Handles : public testing::Test {
         return made;
     }
 
+    /// All that an instance of 1.0 has, but for the one that takes no instance too.
     std::vector<HandleFunction> functions() const {
+        using simulator::openxr_1_1;
         std::vector<HandleFunction> list;
-#define ADD(name)                                                  \
-    {                                                              \
-        const auto function = load<PFN_##name>(#name);             \
-        EXPECT_NE(function, nullptr) << #name;                     \
-        if (function) list.push_back(make_entry(#name, function)); \
-    }
-        HANDLE_FUNCTIONS(ADD)
+        const auto has = [](std::string_view function, std::string_view feature) {
+            return function != "xrGetInstanceProcAddr" && feature != openxr_1_1 &&
+                   (simulator::has_openxr_1_1 || feature != XR_KHR_LOCATE_SPACES_EXTENSION_NAME);
+        };
+#define ADD(name, feature) \
+    if (has(#name, feature)) add(list, #name, load<PFN_##name>(#name));
+        FOVERAY_SIMULATOR_FUNCTIONS(ADD)
 #undef ADD
         return list;
     }
