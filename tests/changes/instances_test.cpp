@@ -7,7 +7,7 @@ namespace {
 
 using ManyInstances = fakes::GpuTest;
 
-const BenchRow& row_named(const std::vector<BenchRow>& rows, const std::string& name) {
+const BenchRow& row_named(const std::vector<BenchRow>& rows, std::string_view name) {
     return *std::ranges::find_if(rows, [&](const BenchRow& row) { return row.name.starts_with(name); });
 }
 
