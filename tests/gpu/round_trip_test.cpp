@@ -21,9 +21,9 @@ struct Read {
     template <typename T>
     void operator()(const T& value) {
         static_assert(sizeof(T) % 4 == 0);
-        const std::size_t at = words.size();
-        words.resize(at + sizeof(T) / 4);
-        std::memcpy(&words[at], &value, sizeof(T));
+        std::uint32_t parts[sizeof(T) / 4];
+        std::memcpy(parts, &value, sizeof(T));
+        for (const std::uint32_t part : parts) words.push_back(part);
     }
 };
 
