@@ -91,7 +91,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateInstance(const XrInstanceCreateInfo* info
             features.insert(std::begin(promoted_to_1_1), std::end(promoted_to_1_1));
         }
         verify(!features.contains(XR_VARJO_FOVEATED_RENDERING_EXTENSION_NAME) ||
-               features.contains(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME));
+                   features.contains(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME),
+               has_openxr_1_1 ? XR_ERROR_EXTENSION_DEPENDENCY_NOT_ENABLED : XR_ERROR_VALIDATION_FAILURE);
         *instance = add_object(std::make_shared<Instance>(std::move(features)), 0);
     });
 }
