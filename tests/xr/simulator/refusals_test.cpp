@@ -180,7 +180,9 @@ TEST_F(Refusals, SubactionPaths) {
     EXPECT_EQ(create({path("/user/invalid")}), XR_ERROR_PATH_UNSUPPORTED);
     EXPECT_EQ(create({XR_NULL_PATH}), XR_ERROR_PATH_INVALID);
     EXPECT_EQ(create({0x1234}), XR_ERROR_PATH_INVALID);
-    EXPECT_EQ(create({path("/user/hand/left"), path("/user/head"), path("/user/gamepad")}), XR_SUCCESS);
+    EXPECT_EQ(create({path("/user/hand/left"), path("/user/head"), path("/user/gamepad"),
+                      path("/user/treadmill")}),
+              XR_SUCCESS);
     info.actionType = XR_ACTION_TYPE_MAX_ENUM;
     EXPECT_EQ(create({}), XR_ERROR_VALIDATION_FAILURE);
 }

@@ -6,6 +6,14 @@
 namespace foveray::simulator {
 namespace {
 
+/// The text of a top level user path.
+std::string read_user_path(Instance& instance, XrPath path) {
+    std::string text = instance.paths().text(path);
+    verify(is_user_path(text, instance.has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)),
+           XR_ERROR_PATH_UNSUPPORTED);
+    return text;
+}
+
 template <std::size_t Size>
 std::string read_name(const char (&array)[Size]) {
     const std::string_view name = fixed_text(array, XR_ERROR_NAME_INVALID);
@@ -97,8 +105,8 @@ XRAPI_ATTR XrResult XRAPI_CALL xrCreateAction(XrActionSet set, const XrActionCre
         std::set<XrPath> unique;
         for (std::uint32_t i = 0; i < info->countSubactionPaths; ++i) {
             const XrPath path = info->subactionPaths[i];
-            verify(is_user_path(object->instance().paths().text(path)) && unique.insert(path).second,
-                   XR_ERROR_PATH_UNSUPPORTED);
+            read_user_path(object->instance(), path);
+            verify(unique.insert(path).second, XR_ERROR_PATH_UNSUPPORTED);
         }
         *action = add_object(object->create_action(object, *info), object->id());
     });
@@ -156,8 +164,7 @@ XRAPI_ATTR XrResult XRAPI_CALL xrGetCurrentInteractionProfile(XrSession session,
     return guarded([&] {
         const auto object = get<Session>(session);
         verify_structure(state, XR_TYPE_INTERACTION_PROFILE_STATE);
-        const std::string text = object->instance().paths().text(user_path);
-        verify(is_user_path(text), XR_ERROR_PATH_UNSUPPORTED);
+        const std::string text = read_user_path(object->instance(), user_path);
         verify(object->inputs().attached(), XR_ERROR_ACTIONSET_NOT_ATTACHED);
         state->interactionProfile = object->inputs().current_profile(text);
     });

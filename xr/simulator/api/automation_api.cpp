@@ -8,7 +8,8 @@ namespace {
 
 std::string read_user_path(const Session& session, XrPath path) {
     std::string text = session.instance().paths().text(path);
-    verify(is_user_path(text), XR_ERROR_PATH_UNSUPPORTED);
+    verify(is_user_path(text, session.instance().has(XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME)),
+           XR_ERROR_PATH_UNSUPPORTED);
     return text;
 }
 

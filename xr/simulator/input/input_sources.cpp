@@ -224,8 +224,8 @@ const InteractionProfile* find_interaction_profile(std::string_view path) {
     return found != profiles.end() ? &*found : nullptr;
 }
 
-bool is_user_path(std::string_view path) {
-    return std::ranges::find(user_paths, path) != std::end(user_paths);
+bool is_user_path(std::string_view path, bool has_eyes) {
+    return std::ranges::find(user_paths, path) != std::end(user_paths) && (has_eyes || path != eyes_path);
 }
 
 const InputSource* find_source(std::string_view path, InputKind kind) {

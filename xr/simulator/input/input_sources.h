@@ -48,8 +48,9 @@ inline constexpr std::string_view left_hand_path = "/user/hand/left";
 inline constexpr std::string_view right_hand_path = "/user/hand/right";
 inline constexpr std::string_view eyes_path = "/user/eyes_ext";
 inline constexpr std::string_view user_paths[] = {left_hand_path, right_hand_path, "/user/head",
-                                                  "/user/gamepad", eyes_path};
-bool is_user_path(std::string_view path);
+                                                  "/user/gamepad", "/user/treadmill", eyes_path};
+/// A top level path of the core, or with `has_eyes` of XR_EXT_eye_gaze_interaction.
+bool is_user_path(std::string_view path, bool has_eyes);
 /// The source of that path and kind in the oldest profile that has it; nullptr when there is none.
 const InputSource* find_source(std::string_view path, InputKind kind);
 
