@@ -95,6 +95,7 @@ constexpr OwnCodes own_codes[] = {
     {"xrCreateVulkanDeviceKHR", "OUT_OF_MEMORY LIMIT_REACHED SYSTEM_INVALID"},
     {"xrGetVulkanGraphicsDevice2KHR", "SYSTEM_INVALID"},
     {"xrLocateSpaces", "FUNCTION_UNSUPPORTED SIZE_INSUFFICIENT TIME_INVALID"},
+    {"xrLocateSpacesKHR", "SIZE_INSUFFICIENT TIME_INVALID"},
     {"xrGetVulkanGraphicsRequirements2KHR", "SYSTEM_INVALID"},
 };
 
