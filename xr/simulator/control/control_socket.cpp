@@ -83,8 +83,14 @@ ControlSocket::ControlSocket(const fs::path& path, Answer answer) : path_(path),
         make_own_folder(path.parent_path());
         remove_dead_sockets(path.parent_path());
     }
-    listener_ = listen_at(path);
     wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (wake_ < 0) throw_no_socket(path, std::strerror(errno));
+    try {
+        listener_ = listen_at(path);
+    } catch (...) {
+        close(wake_);
+        throw;
+    }
     // Signals are the program's own.
     sigset_t all, before;
     sigfillset(&all);
