@@ -3,9 +3,11 @@
 #include <chrono>
 #include <iomanip>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "xr/simulator/api/call_cost.h"
+#include "xr/simulator/api/verify.h"
 
 namespace foveray::simulator {
 namespace {
@@ -20,7 +22,7 @@ bool begins(const std::filesystem::path& file) {
 
 }  // namespace
 
-TimingFile::TimingFile(const std::filesystem::path& file) {
+TimingFile::TimingFile(const std::filesystem::path& file) : file_(file) {
     const bool is_new = begins(file);
     out_.open(file, is_new ? std::ios::trunc : std::ios::app);
     if (is_new) {
@@ -65,6 +67,8 @@ void TimingFile::ended(const FrameTime& frame, const End& end) {
          << std::setprecision(1) << static_cast<double>(cost) * 1e-3 << ',';
     if (end.composition_ms) out_ << std::setprecision(4) << *end.composition_ms;
     out_ << std::endl;  // a client may crash in the next frame
+    if (!out_ && !std::exchange(is_cut_short_, true))
+        report(file_.string() + ": cannot be written any more; check the free space");
     missed_frames_ = end.missed_frames;
     call_cost::skip();
 }

@@ -41,7 +41,9 @@ class TimingFile {
     };
 
     std::mutex mutex_;  // what follows
+    std::filesystem::path file_;
     std::ofstream out_;
+    bool is_cut_short_ = false;  // and that was told
     std::map<std::uint64_t, Row> rows_;  // by frame; those not ended yet
     std::uint64_t missed_frames_ = 0;
 };
