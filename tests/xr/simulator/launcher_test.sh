@@ -15,6 +15,18 @@ for line in FOVERAY_SIMULATOR_PROFILE=quest-pro FOVERAY_SIMULATOR_TIME=virtual F
     grep -qx "$line" "$work/log" || fail "no $line"
 done
 
+# A program that goes elsewhere before it makes its instance finds what was named from here.
+(cd "$work" && "$launcher" --profile own.json --session s --faults f.csv --capture 'my frames' --timing t.csv --background 'c/*_left.png' \
+    -- sh -c 'cd / && env' >"$work/log") || fail "exit code $?"
+for line in PROFILE=$work/own.json SESSION=$work/s FAULTS=$work/f.csv "CAPTURE=$work/my frames" TIMING=$work/t.csv \
+    "BACKGROUND=$work/c/*_left.png"; do
+    grep -qxF "FOVERAY_SIMULATOR_$line" "$work/log" || fail "no $line"
+done
+"$launcher" --profile ci --background '#102030' -- env >"$work/log" || fail "exit code $?"
+for line in PROFILE=ci 'BACKGROUND=#102030'; do
+    grep -qxF "FOVERAY_SIMULATOR_$line" "$work/log" || fail "no $line"
+done
+
 # A program that ends when the script does.
 mkdir "$work/session"
 cat >"$work/session/session.json" <<'SESSION'
