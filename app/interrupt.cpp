@@ -7,9 +7,10 @@ namespace {
 
 volatile std::sig_atomic_t flag = 0;
 
-void on_signal(int signal) {
+void on_signal(int) {
     flag = 1;
-    std::signal(signal, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 namespace foveray::app {
 
 /// From here on Ctrl-C (SIGINT) and SIGTERM only set a flag, so that work in hand can end in order; a second
-/// one ends the program at once.
+/// one of either kind ends the program at once.
 void catch_interrupts();
 bool interrupted();
 
