@@ -13,6 +13,7 @@
 #include "app/program.h"
 #include "app/progress.h"
 #include "app/quality_control.h"
+#include "app/wake_on_interrupt.h"
 #include "base/log.h"
 #include "base/staged_folder.h"
 #include "passthrough/capture/video_writer.h"
@@ -99,6 +100,7 @@ ExitCode run_replay(const ReplayOptions& options) {
     Video video(out.path(), session.rate_hz);
     Progress progress(std::cerr, Progress::style_for(options.json), "frames", range.end);
     catch_interrupts();
+    const WakeOnInterrupt wake_on_interrupt(headset);
     std::uint64_t done = 0;
     while (done < range.end && !interrupted()) {
         const auto state = headset.poll();

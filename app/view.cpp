@@ -11,6 +11,7 @@
 #include "app/quality_control.h"
 #include "app/scene_reload.h"
 #include "app/session_recorder.h"
+#include "app/wake_on_interrupt.h"
 #include "base/log.h"
 
 namespace foveray::app {
@@ -128,6 +129,7 @@ ExitCode run_view(const ViewOptions& options) {
         }
     };
     try {
+        const WakeOnInterrupt wake_on_interrupt(headset);
         show_frames();
     } catch (...) {
         // What was recorded until then is worth keeping.

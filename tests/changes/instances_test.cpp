@@ -1,3 +1,5 @@
+#include <string_view>
+
 #include "app/bench/tables.h"
 #include "tests/changes/still_life.h"
 #include "tests/fakes/gpu_fixture.h"

@@ -2,6 +2,7 @@
 // its recording can be read.
 #include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,18 @@ TEST_F(ViewInterruptTest, EndsAtOnceWhileTheHeadsetIsLost) {
     write("4,form_factor_lost,\n4,session_loss,\n");
     EXPECT_EQ(interrupt("its headset is away"), 0);
     EXPECT_GE(read_session(path("recording")).head.size(), 1u);
+}
+
+TEST_F(ViewInterruptTest, EndsWhileItWaitsForAFrameThatDoesNotCome) {
+    write("");
+    const fakes::Environment time("FOVERAY_SIMULATOR_TIME", "stepped"),
+        socket("FOVERAY_SIMULATOR_CONTROL", path("socket"));
+    fakes::RunningView view(folder_, {"--record", path("recording")}, fakes::RunningView::Pictures::Kept);
+    view.wait_for("Ctrl-C ends");
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // in xrWaitFrame, which nobody lets return
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(view.end(), 0) << view.log();
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20)) << view.log();
 }
 
 TEST_F(ViewInterruptTest, EndsAtOnceWhileTheHeadsetIsWaitedFor) {

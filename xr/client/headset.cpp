@@ -86,10 +86,15 @@ void Headset::start(const gpu::Device& device, BlendMode blend, float near_z, fl
     presentation_ = {blend, near_z, far_z};
     system_name_ = instance_->system_name();
     view_configuration_ = instance_->view_configuration();
-    unless_lost([&] { session_ = std::make_unique<RuntimeSession>(*instance_, device, presentation_); });
+    unless_lost([&] { take_session(std::make_unique<RuntimeSession>(*instance_, device, presentation_)); });
 }
 
-void Headset::stop() { session_.reset(); }
+void Headset::take_session(std::unique_ptr<RuntimeSession> session) {
+    const std::lock_guard lock(session_mutex_);
+    session_ = std::move(session);
+}
+
+void Headset::stop() { take_session(nullptr); }
 
 Headset::State Headset::poll() {
     if (leave_by_ && Clock::now() >= *leave_by_) return State::Ended;
@@ -108,7 +113,7 @@ void Headset::reconnect() {
     if (!away_since_) away_since_ = Clock::now();
     if (Clock::now() - *away_since_ > patience_.in_all) throw Lost(*loss_);
     log::warn("the OpenXR runtime {} {}; connecting again", instance_->runtime_name(), loss_->event());
-    session_.reset();
+    take_session(nullptr);
     instance_is_lost_ = loss_->with_instance();
     loss_.reset();
 }
@@ -125,7 +130,7 @@ void Headset::connect() {
         }
         if (!instance_->find_headset()) throw_away(*instance_);
         require_same_headset();
-        session_ = std::make_unique<RuntimeSession>(*instance_, *device_, presentation_);
+        take_session(std::make_unique<RuntimeSession>(*instance_, *device_, presentation_));
         log::info("connected to {} again", system_name_);
     } catch (const Fault& fault) {
         if (Clock::now() - *away_since_ > patience_.in_all) throw;
@@ -156,6 +161,11 @@ void Headset::request_exit() {
         session_->request_exit();
         *leave_by_ += exit_patience;
     });
+}
+
+void Headset::wake() {
+    const std::lock_guard lock(session_mutex_);
+    if (session_) session_->wake();
 }
 
 std::optional<Frame> Headset::begin_frame() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,9 @@ class Headset {
     void reconnect();
     /// Asks the runtime to end the session; poll() gets there, within a second whatever the runtime does.
     void request_exit();
+    /// From another thread, while begin_frame() waits for a frame that does not come: asks the runtime to end
+    /// the session, which is to bring it back.
+    void wake();
 
     /// Blocks until the runtime wants the next frame. Empty: it lost the session instead.
     std::optional<Frame> begin_frame();
@@ -85,6 +89,7 @@ class Headset {
     void wait_for_headset();
     void connect();
     void require_same_headset() const;
+    void take_session(std::unique_ptr<RuntimeSession> session);
     template <typename Call>
     void unless_lost(Call&& call);
 
@@ -96,6 +101,7 @@ class Headset {
     Presentation presentation_;
     std::string system_name_;
     XrViewConfigurationType view_configuration_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    std::mutex session_mutex_;                 // between wake() and what changes the pointer
     std::unique_ptr<RuntimeSession> session_;  // null while there is none
 
     std::optional<Lost> loss_;  // of the session, until reconnect()

@@ -175,6 +175,8 @@ void RuntimeSession::on_state(XrSessionState state) {
     }
 }
 
+void RuntimeSession::wake() const { xrRequestExitSession(session_.get()); }
+
 void RuntimeSession::request_exit() { check(xrRequestExitSession(session_.get()), "xrRequestExitSession"); }
 
 bool RuntimeSession::rendering_gaze_is_available(XrTime time) const {

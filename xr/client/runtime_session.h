@@ -45,6 +45,8 @@ class RuntimeSession {
     bool has_ended() const { return ended_; }
     /// Asks a running session to end; poll() gets there.
     void request_exit();
+    /// The same, as far as it goes, from any thread.
+    void wake() const;
 
     /// Blocks until the runtime wants a frame. Without index and session time; poses that are not tracked are
     /// left as the runtime gives them, and head_valid is false.

@@ -1,5 +1,6 @@
 #include "tests/xr/simulator/composed.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
