@@ -21,6 +21,7 @@ if(FOVERAY_SANITIZE)
   add_compile_options(-fsanitize=${FOVERAY_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FOVERAY_SANITIZE})
   add_compile_options(-Wno-maybe-uninitialized)  # GCC warns about its own std::regex under sanitizers
+  add_compile_options(-Wno-tsan)  # fences between processes, which the thread sanitizer does not know
 endif()
 
 # foveray_library(NAME SOURCES… [PUBLIC targets…] [PRIVATE targets…])
